@@ -1,0 +1,28 @@
+"""The one exception a user is meant to see."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+
+class InputError(ValueError):
+    """Something handed in by the user cannot be used.
+
+    Its text is a single line that names the file, the key within it, and what is allowed, so that
+    it can be shown as it is, without a stack trace.
+
+    Args:
+        file: the file (or the environment variable or option) that is at fault.
+        key: the key, column, row or property within it; empty if the file as a whole is.
+        message: what is wrong and what would be right.
+    """
+
+    def __init__(self, file: str | Path, key: str, message: str) -> None:
+        self.file = str(file)
+        self.key = key
+        self.message = " ".join(message.split())
+        where = f"{self.file}: {key}" if key else self.file
+        super().__init__(f"{where}: {self.message}")
+
+    def __reduce__(self) -> tuple[type[InputError], tuple[str, str, str]]:
+        return InputError, (self.file, self.key, self.message)

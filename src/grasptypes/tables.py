@@ -1,0 +1,43 @@
+"""Tables are checked against a schema at the moment they are written."""
+
+from __future__ import annotations
+
+import io
+from pathlib import Path
+
+import pandas as pd
+import pandera.pandas as pa
+
+from grasptypes.errors import InputError
+from grasptypes.files import write_bytes
+
+
+def write_table(table: pd.DataFrame, path: str | Path, schema: pa.DataFrameSchema) -> None:
+    """Check ``table`` against ``schema`` and write it as CSV or Parquet, by the file's suffix.
+
+    Raises:
+        pandera.errors.SchemaError: the table does not meet its schema; nothing is written.
+    """
+    path = Path(path)
+    checked = schema.validate(table)
+    buffer = io.BytesIO()
+    if path.suffix == ".parquet":
+        checked.to_parquet(buffer, index=False, compression="zstd")
+    else:
+        checked.to_csv(buffer, index=False, lineterminator="\n")
+    write_bytes(path, buffer.getvalue())
+
+
+def read_table(path: str | Path, schema: pa.DataFrameSchema) -> pd.DataFrame:
+    """Read a table written by :func:`write_table` and check it.
+
+    Raises:
+        InputError: naming the file and the first column that does not meet the schema.
+    """
+    path = Path(path)
+    table = pd.read_parquet(path) if path.suffix == ".parquet" else pd.read_csv(path)
+    try:
+        return schema.validate(table)
+    except pa.errors.SchemaError as error:
+        column = getattr(error.schema, "name", None) or str(error.reason_code)
+        raise InputError(path, str(column), str(error)) from error
