@@ -1,0 +1,73 @@
+"""The hand's forward kinematics against figures stated for GraspIt!'s `Barrett` model."""
+
+import numpy as np
+import pytest
+
+from grasptypes.hand import kinematics
+
+TENTH_MM = 1e-4
+
+
+def tips_m(*dofs_deg: float) -> np.ndarray:
+    return kinematics.fingertips(kinematics.couple(np.radians(dofs_deg)))
+
+
+def test_fingertips_of_the_open_hand_are_where_stated() -> None:
+    expected = [[0.025, 0.1586, 0.044], [-0.025, 0.1586, 0.044], [0, -0.1586, 0.044]]
+    np.testing.assert_allclose(tips_m(0, 0, 0, 0), expected, atol=TENTH_MM)
+
+
+def test_fingertips_at_sixty_degrees_are_where_stated() -> None:
+    tips = tips_m(0, 60, 60, 60)
+    np.testing.assert_allclose(tips[:, 2], 0.1075, atol=TENTH_MM)
+    np.testing.assert_allclose(tips[:, 1], [0.048, 0.048, -0.048], atol=TENTH_MM)
+
+
+def test_spread_of_half_a_turn_brings_all_fingers_to_one_side() -> None:
+    tips = tips_m(180, 30, 30, 30)
+    np.testing.assert_allclose(tips[:, 1], tips[2, 1], atol=TENTH_MM)
+    np.testing.assert_allclose(tips[:, 0], [0.025, -0.025, 0.0], atol=TENTH_MM)
+
+
+def test_spread_turns_fingers_outwards_and_mirrored() -> None:
+    tips = tips_m(90, 0, 0, 0)
+    assert tips[0, 0] > 0.15
+    np.testing.assert_allclose(tips[0] * [-1, 1, 1], tips[1], atol=1e-12)
+
+
+def test_coupled_fingertip_turns_a_third_and_stays_within_its_limit() -> None:
+    angles = kinematics.couple(kinematics.DOF_LIMITS_RAD[:, 1])
+    np.testing.assert_allclose(np.degrees(angles[5:]), 140 / 3)
+    assert not kinematics.beyond_limits(angles, kinematics.JOINT_LIMITS_RAD, 1e-9).any()
+
+
+def test_batches_agree_with_single_calls_and_poses_are_rigid() -> None:
+    lower, upper = kinematics.JOINT_LIMITS_RAD.T
+    angles = np.random.default_rng(0).uniform(lower, upper, (4, 5, 8))
+    poses = kinematics.link_poses(angles)
+    assert poses.shape == (4, 5, 9, 4, 4)
+    np.testing.assert_allclose(poses[2, 3], kinematics.link_poses(angles[2, 3]), atol=1e-15)
+    rotations = poses[..., :3, :3]
+    identity = np.broadcast_to(np.eye(3), rotations.shape)
+    np.testing.assert_allclose(rotations @ rotations.swapaxes(-1, -2), identity, atol=1e-12)
+    np.testing.assert_allclose(np.linalg.det(rotations), 1.0)
+
+
+@pytest.mark.parametrize("joint", range(8))
+def test_link_z_axis_is_the_axis_of_its_joint(joint: int) -> None:
+    angles = np.radians([40, 40, 60, 50, 70, 20, 25, 30.0])
+    step = np.zeros(8)
+    step[joint] = 1e-6
+    link = joint + 1
+    pose = kinematics.link_poses(angles)[link]
+    moved = kinematics.link_poses(angles + step)[link]
+    turn = (moved[:3, :3] - pose[:3, :3]) / 1e-6 @ pose[:3, :3].T
+    rate = np.array([turn[2, 1], turn[0, 2], turn[1, 0]])
+    np.testing.assert_allclose(rate, pose[:3, 2], atol=1e-5)
+    np.testing.assert_allclose(moved[:3, 3], pose[:3, 3], atol=1e-15)
+
+
+def test_beyond_limits_names_the_joint_and_allows_the_tolerance() -> None:
+    dofs = np.radians([[0, 140.4, 20, 150], [-1, 0, 0, 0]])
+    beyond = kinematics.beyond_limits(dofs, kinematics.DOF_LIMITS_RAD, np.radians(0.5))
+    np.testing.assert_array_equal(beyond, [[0, 0, 0, 1], [1, 0, 0, 0]])
