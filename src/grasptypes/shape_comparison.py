@@ -36,7 +36,7 @@ def compare(
     model: trimesh.Trimesh,
     reference: trimesh.Trimesh,
     surface_samples: int = 20_000,
-    volume_samples: int = 1_000_000,
+    volume_samples: int = 300_000,
 ) -> ShapeComparison:
     """Compare two meshes (metres, same frame); neither needs to be watertight."""
     there = _distances(sample_surface(model, surface_samples), reference)
