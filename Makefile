@@ -1,0 +1,49 @@
+# Everything a user does, one target each; `make help` lists them.
+SHELL := /bin/bash
+.SHELLFLAGS := -eu -o pipefail -c
+.DEFAULT_GOAL := help
+
+PYTHON ?= python3
+VENV ?= .venv
+JOBS ?= 2
+BIN := $(abspath $(VENV))/bin
+export PATH := $(BIN):$(PATH)
+export DVC_NO_ANALYTICS := 1
+export MLFLOW_DISABLE_TELEMETRY := true
+
+.PHONY: help setup table1 demo test lint format lock clean
+
+help: ## list the targets
+	@awk -F ':.*## ' '/^[a-z0-9-]+:.*## / {printf "  make %-12s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
+
+setup: $(VENV)/.ready ## virtual environment from the lock file, and the off-screen GL library
+
+$(VENV)/.ready: requirements.lock pyproject.toml
+	@workflow/envs/set_up.sh "$(PYTHON)" "$(VENV)"
+	@touch $@
+
+table1: setup ## the main job: from parameters to Table I
+	snakemake -j$(JOBS) reports/table1.csv
+
+demo: setup ## the whole pipeline on 2 objects, in build/demo
+	python -m grasptypes.checkout . build/demo --params tests/small.yaml
+	cd build/demo && snakemake -j$(JOBS) reports/table1.csv && cat reports/table1.md
+
+test: setup ## the default tests
+	pytest -n $(JOBS)
+
+lint: setup ## style, types and workflow checks
+	ruff check . && ruff format --check . && mypy && snakefmt --check Snakefile workflow
+
+format: setup ## rewrite files in the project's style
+	ruff check --fix . && ruff format . && snakefmt Snakefile workflow
+
+clean: ## remove what can be rebuilt outside the data: logs, demo, caches
+	rm -rf build logs .pytest_cache .ruff_cache .mypy_cache
+
+lock: setup ## write requirements.lock anew from the ranges of pyproject.toml
+	pip-compile --quiet --all-extras --strip-extras --no-header --annotation-style line \
+	    --no-emit-index-url --no-emit-find-links --no-emit-trusted-host -o build/all.lock pyproject.toml
+	{ echo "# Written by make lock. The CUDA libraries are left out: torch itself pins the ones its build needs,"; \
+	  echo "# and its CPU build needs none."; \
+	  grep -vE '^(nvidia|cuda|triton)|^$$|^#' build/all.lock; } > requirements.lock

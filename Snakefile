@@ -1,0 +1,38 @@
+# The paper's pipeline, in its order: objects, contact maps, grasps, labels, renders, predictors,
+# tables. `snakemake -j2 reports/table1.csv` is the main job; `snakemake -n` says what is to be done.
+import sys
+from pathlib import Path
+
+from snakemake.utils import min_version
+
+min_version("9.17")
+# The code of this checkout, whatever is installed: a copy of the repository must run its own.
+sys.path.insert(0, str(Path(workflow.basedir) / "src"))
+
+from grasptypes.guard import release_dead_lock, use_this_checkout
+
+use_this_checkout(workflow.basedir)
+if workflow.is_main_process:
+    running_lock = release_dead_lock()
+
+
+configfile: "params.yaml"
+
+
+include: "workflow/rules/common.smk"
+include: "workflow/rules/objects.smk"
+
+
+wildcard_constraints:
+    object="|".join(OBJECTS),
+    task="|".join(TASKS),
+
+
+localrules:
+    all,
+
+
+rule all:
+    default_target: True
+    input:
+        rules.objects.input,

@@ -1,0 +1,57 @@
+"""Start-up checks: a run uses this checkout's code and is not blocked by a dead one's lock."""
+
+from __future__ import annotations
+
+import fcntl
+import os
+import shutil
+import sys
+import time
+from pathlib import Path
+from typing import IO
+
+
+def use_this_checkout(root: str | Path) -> None:
+    """Make jobs run this checkout's code with the Python that runs Snakemake, one thread each.
+
+    One thread a job keeps the results independent of the number of jobs.
+    """
+    paths = [str(Path(root) / "src"), os.environ.get("PYTHONPATH", "")]
+    os.environ["PYTHONPATH"] = os.pathsep.join(filter(None, paths))
+    os.environ["PATH"] = os.pathsep.join([str(Path(sys.executable).parent), os.environ["PATH"]])
+    for variable in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
+        os.environ[variable] = "1"
+    os.environ["PYTHONHASHSEED"] = "0"
+
+
+def release_dead_lock(state: str | Path = ".snakemake", patience_s: float = 2.0) -> IO | None:
+    """Remove the lock that a killed Snakemake left behind.
+
+    Snakemake's own lock does not know whether its owner is alive. Beside it we hold one that the
+    kernel releases however the process ends: whoever gets it knows that nobody else is running.
+
+    Returns:
+        the open lock file, to be kept for as long as the process lives; None if somebody else is
+        running, in which case Snakemake's own lock decides.
+    """
+    state = Path(state)
+    state.mkdir(exist_ok=True)
+    lock = open(state / "running.lock", "a+")  # noqa: SIM115 - open until the process ends
+    deadline = time.monotonic() + patience_s
+    while True:
+        try:
+            fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            break
+        except BlockingIOError:
+            if time.monotonic() > deadline:
+                lock.seek(0)
+                owner = lock.read().strip() or "an unknown process"
+                sys.stderr.write(f"another run holds this folder: process {owner}\n")
+                return None
+            time.sleep(0.1)
+    lock.truncate(0)
+    lock.write(str(os.getpid()))
+    lock.flush()
+    shutil.rmtree(state / "locks", ignore_errors=True)
+    (state / "locks").mkdir(exist_ok=True)
+    return lock

@@ -1,0 +1,91 @@
+"""params.yaml: read strictly, checked against its schema, wrong keys named in one line."""
+
+from __future__ import annotations
+
+from collections.abc import Hashable, Mapping
+from pathlib import Path
+from typing import Any
+
+import jsonschema
+import yaml
+
+from grasptypes.errors import InputError
+
+
+class _StrictLoader(yaml.SafeLoader):
+    """A safe loader that refuses duplicate keys, which YAML would silently let the last one win."""
+
+    def construct_mapping(self, node: yaml.MappingNode, deep: bool = False) -> dict[Hashable, Any]:
+        seen = set()
+        for key_node, _ in node.value:
+            if key_node.value in seen:
+                raise yaml.constructor.ConstructorError(
+                    None, None, f"key '{key_node.value}' is there twice", key_node.start_mark
+                )
+            seen.add(key_node.value)
+        return super().construct_mapping(node, deep)
+
+
+def read_yaml(path: str | Path) -> dict[str, Any]:
+    """A YAML mapping; tags, duplicate keys and anything but a mapping are refused.
+
+    Raises:
+        InputError: the file is missing, not YAML, or not a mapping.
+    """
+    path = Path(path)
+    try:
+        content = yaml.load(path.read_text(encoding="utf-8"), _StrictLoader)
+    except FileNotFoundError as error:
+        raise InputError(path, "", "no such file") from error
+    except UnicodeDecodeError as error:
+        raise InputError(path, "", f"not UTF-8 text: {error}") from error
+    except yaml.YAMLError as error:
+        mark = getattr(error, "problem_mark", None)
+        line = f"line {mark.line + 1}" if mark else ""
+        problem = getattr(error, "problem", None) or str(error)
+        raise InputError(path, line, f"not valid YAML: {problem}") from error
+    if not isinstance(content, dict):
+        raise InputError(path, "", "must hold a mapping of sections, such as 'objects:'")
+    return content
+
+
+def validate_params(
+    params: Mapping[str, Any], schema: Mapping[str, Any], path: str | Path = "params.yaml"
+) -> None:
+    """Check ``params`` against a JSON Schema.
+
+    Raises:
+        InputError: naming the first wrong key and what is allowed there.
+    """
+    validator = jsonschema.Draft202012Validator(schema)
+    error = jsonschema.exceptions.best_match(validator.iter_errors(params))
+    if error is not None:
+        key = ".".join(str(part) for part in error.absolute_path)
+        raise InputError(path, key, _explain(error))
+
+
+def load_params(path: str | Path, schema_path: str | Path) -> dict[str, Any]:
+    """Read params.yaml and check it against the schema file; see :func:`validate_params`."""
+    params = read_yaml(path)
+    validate_params(params, read_yaml(schema_path), path)
+    return params
+
+
+def merge(base: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str, Any]:
+    """``base`` with ``changes`` laid over it, section by section; lists are replaced whole."""
+    merged = dict(base)
+    for key, value in changes.items():
+        old = merged.get(key)
+        both = isinstance(value, Mapping) and isinstance(old, Mapping)
+        merged[key] = merge(old, value) if both else value
+    return merged
+
+
+def _explain(error: jsonschema.ValidationError) -> str:
+    """What is wrong, what is allowed, and the unit, on one line."""
+    message = error.message
+    allowed = error.schema.get("properties") if isinstance(error.schema, Mapping) else None
+    if error.validator == "additionalProperties" and allowed:
+        message += f"; allowed: {', '.join(sorted(allowed))}"
+    description = error.schema.get("description") if isinstance(error.schema, Mapping) else None
+    return f"{message} ({description})" if description else message

@@ -1,0 +1,41 @@
+#!/usr/bin/env bash
+# Sets up a virtual environment from the lock file and the off-screen GL library. What cannot be
+# installed ends with one line: what is missing, and the command that gets it.
+set -euo pipefail
+
+python=$1
+venv=$2
+here=$(cd "$(dirname "$0")" && pwd)
+root=$(cd "$here/../.." && pwd)
+
+missing() {
+    echo "missing: $1; get it with: $2" >&2
+    exit 1
+}
+
+command -v "$python" >/dev/null || missing "$python" "apt-get install python3 python3-venv"
+"$python" -c 'import sys; sys.exit(sys.version_info < (3, 11))' ||
+    missing "Python 3.11 or newer ($python is older)" "make setup PYTHON=python3.11"
+"$python" -c 'import ensurepip, venv' 2>/dev/null ||
+    missing "Python's venv module" "apt-get install python3-venv"
+
+can_load() {
+    "$python" -c "import ctypes, sys; ctypes.CDLL(sys.argv[1])" "$1" 2>/dev/null
+}
+
+if ! can_load libOSMesa.so.8 && ! can_load libOSMesa.so.6 && ! can_load libEGL.so.1; then
+    packages=$(grep -v '^#' "$here/apt.txt" | tr '\n' ' ')
+    as_root=""
+    [ "$(id -u)" = 0 ] || as_root="sudo -n"
+    command -v apt-get >/dev/null || missing "OSMesa or EGL, the off-screen GL library" \
+        "your system's package of libOSMesa or libEGL"
+    echo "installing $packages"
+    { $as_root apt-get update -qq && $as_root apt-get install -y -qq --no-install-recommends $packages; } \
+        >/dev/null 2>&1 || missing "OSMesa, the off-screen GL library" "sudo apt-get install $packages"
+fi
+
+[ -x "$venv/bin/python" ] || "$python" -m venv "$venv"
+echo "installing the locked packages into $venv (a few minutes the first time)"
+"$venv/bin/pip" install --quiet --disable-pip-version-check -r "$root/requirements.lock" ||
+    missing "a package of requirements.lock" "a connection to the package index, then make setup again"
+"$venv/bin/pip" install --quiet --disable-pip-version-check --no-deps --no-build-isolation -e "$root"
