@@ -36,6 +36,6 @@ fi
 
 [ -x "$venv/bin/python" ] || "$python" -m venv "$venv"
 echo "installing the locked packages into $venv (a few minutes the first time)"
-"$venv/bin/pip" install --quiet --disable-pip-version-check -r "$root/requirements.lock" ||
+"$venv/bin/pip" install -qq --disable-pip-version-check -r "$root/requirements.lock" ||
     missing "a package of requirements.lock" "a connection to the package index, then make setup again"
-"$venv/bin/pip" install --quiet --disable-pip-version-check --no-deps --no-build-isolation -e "$root"
+"$venv/bin/pip" install -qq --disable-pip-version-check --no-deps --no-build-isolation -e "$root"
