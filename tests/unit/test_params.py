@@ -24,7 +24,7 @@ def test_committed_params_meet_the_schema() -> None:
         ({"sed": 1}, "params.yaml", "allowed: "),
         ({"seed": "one"}, "seed", "whole number"),
         ({"seed": -1}, "seed", "minimum"),
-        ({"tasks": {}}, "tasks", "non-empty"),
+        ({"tasks": ["use"]}, "tasks", "object"),
         ({"tasks": {"use": {"colour_shift": 999}}}, "tasks.use.colour_shift", "255"),
         ({"tasks": {"use": {"color_shift": 10}}}, "tasks.use", "colour_shift"),
         ({"tasks": {"Bad Name": {"colour_shift": 1}}}, "tasks", "Bad Name"),
