@@ -1,0 +1,206 @@
+"""Toothbrush and toothpaste, in ContactDB's frame and size (metres)."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from manifold3d import Manifold
+
+from grasptypes.objects import lofts, sections, solids
+from grasptypes.objects.parts import Material, ObjectModel, Part
+
+TURQUOISE_PLASTIC = Material((0.05, 0.58, 0.66, 1.0), roughness=0.4)
+NAVY_RUBBER = Material((0.07, 0.13, 0.38, 1.0), roughness=0.8)
+WHITE_BRISTLES = Material((0.94, 0.95, 0.97, 1.0), roughness=0.9)
+WHITE_TUBE = Material((0.93, 0.94, 0.95, 1.0), roughness=0.35)
+RED_PRINT = Material((0.80, 0.06, 0.10, 1.0), roughness=0.35)
+BLUE_PRINT = Material((0.07, 0.22, 0.62, 1.0), roughness=0.35)
+
+
+@dataclass(frozen=True)
+class Toothbrush:
+    """Toothbrush: handle towards +x, head at -x with the bristles pointing to -y.
+
+    Attributes:
+        stations: rows of x, y and z of the centre line, radius.
+    """
+
+    stations: tuple[tuple[float, float, float, float], ...] = (
+        (-0.0724, 0.0014, 0.0008, 0.0010),
+        (-0.0718, 0.0014, 0.0008, 0.0030),
+        (-0.0700, 0.0013, 0.0008, 0.0049),
+        (-0.0655, 0.0014, 0.0007, 0.0059),
+        (-0.0410, 0.0043, 0.0005, 0.0058),
+        (-0.0300, 0.0028, 0.0003, 0.0058),
+        (-0.0200, -0.0016, 0.0002, 0.0058),
+        (-0.0080, -0.0049, 0.0001, 0.0059),
+        (0.0400, 0.0009, -0.0005, 0.0054),
+        (0.0700, 0.0047, -0.0008, 0.0047),
+        (0.0880, 0.0069, -0.0010, 0.0034),
+        (0.0910, 0.0072, -0.0010, 0.0026),
+        (0.0925, 0.0074, -0.0010, 0.0012),
+    )
+    head_end_x_m: float = -0.0390
+    neck_end_x_m: float = -0.0100
+    bristles_x_m: float = -0.0527
+    bristles_length_m: float = 0.0255
+    bristles_width_m: float = 0.0088
+    bristles_start_y_m: float = 0.0020
+    bristles_end_y_m: float = -0.0124
+    bristles_tilt_deg: float = 7.5
+    tuft_pitch_m: float = 0.0026
+    tuft_gap_m: float = 0.0006
+    tuft_depth_m: float = 0.0075
+    pad_start_x_m: float = 0.004
+    pad_end_x_m: float = 0.046
+    pad_width_m: float = 0.0066
+    pad_height_m: float = 0.0003
+
+
+def toothbrush(size: Toothbrush = Toothbrush()) -> ObjectModel:
+    """Build the toothbrush with parts handle, grip_pad, neck, head and bristles."""
+    stem = _toothbrush_stem(size)
+    head, neck, handle = solids.slabs(stem, [size.head_end_x_m, size.neck_end_x_m], "x")
+    parts = (
+        Part("handle", handle, TURQUOISE_PLASTIC),
+        Part("grip_pad", _toothbrush_pad(size), NAVY_RUBBER),
+        Part("neck", neck, WHITE_TUBE),
+        Part("head", head, TURQUOISE_PLASTIC),
+        Part("bristles", _toothbrush_bristles(size), WHITE_BRISTLES),
+    )
+    return ObjectModel(parts, density_kg_m3=1000.0)
+
+
+def _toothbrush_stem(size: Toothbrush, swell_m: float = 0.0) -> Manifold:
+    stations, values = lofts.interpolate_stations(size.stations, count=90)
+    ring = sections.circle(1.0, 32)
+    outlines = [ring * (radius + swell_m) + [y, z] for y, z, radius in values]
+    return lofts.loft_along("x", stations, outlines)
+
+
+def _toothbrush_pad(size: Toothbrush) -> Manifold:
+    """Return the thumb pad on the handle's back, opposite the bristles."""
+    length_m = size.pad_end_x_m - size.pad_start_x_m
+    outline = sections.rounded_rectangle(length_m, size.pad_width_m, 0.49 * size.pad_width_m)
+    rows = np.asarray(size.stations)
+    middle_x_m = (size.pad_start_x_m + size.pad_end_x_m) / 2
+    middle = [np.interp(middle_x_m, rows[:, 0], rows[:, column]) for column in (1, 2)]
+    stamp = solids.extrude(outline, 0.02, axis="y", centred=False)
+    return _toothbrush_stem(size, size.pad_height_m) ^ stamp.translate((middle_x_m, *middle))
+
+
+def _toothbrush_bristles(size: Toothbrush) -> Manifold:
+    """Return the bristle block, its free end slit into tufts."""
+    height_m = size.bristles_start_y_m - size.bristles_end_y_m
+    outline = lofts.even_superellipse(
+        size.bristles_length_m / 2, size.bristles_width_m / 2, exponent=4.0
+    )
+    block = solids.extrude(outline, height_m, axis="y")
+    low_m = -height_m / 2 + size.tuft_depth_m / 2
+    slits = []
+    for extent_m, cut in (
+        (size.bristles_length_m, (size.tuft_gap_m, size.tuft_depth_m, 0.02)),
+        (size.bristles_width_m, (0.04, size.tuft_depth_m, size.tuft_gap_m)),
+    ):
+        count = int(extent_m / size.tuft_pitch_m) - 1
+        at = (np.arange(count) - (count - 1) / 2) * size.tuft_pitch_m
+        axis = 0 if cut[0] < cut[2] else 2
+        slits += [solids.box(cut).translate((x * (axis == 0), low_m, x * (axis == 2))) for x in at]
+    tufts = solids.rotate(solids.difference(block, *slits), z_deg=size.bristles_tilt_deg)
+    middle_y_m = (size.bristles_start_y_m + size.bristles_end_y_m) / 2
+    return tufts.translate((size.bristles_x_m, middle_y_m, size.stations[3][2]))
+
+
+@dataclass(frozen=True)
+class Toothpaste:
+    """Tube: cap at +x, flat fold at -x, widest across y at the fold.
+
+    Attributes:
+        stations: rows of x, half width along y, half thickness along z.
+    """
+
+    stations: tuple[tuple[float, float, float], ...] = (
+        (-0.0900, 0.0263, 0.0009),
+        (-0.0780, 0.0263, 0.0063),
+        (-0.0390, 0.0241, 0.0120),
+        (0.0000, 0.0222, 0.0147),
+        (0.0400, 0.0204, 0.0172),
+        (0.0747, 0.0191, 0.0190),
+    )
+    fold_x_m: float = -0.0983
+    fold_thickness_m: float = 0.0017
+    shoulder_end_x_m: float = 0.0912
+    neck_radius_m: float = 0.0059
+    cap_start_x_m: float = 0.0928
+    cap_start_radius_m: float = 0.0066
+    cap_end_x_m: float = 0.1039
+    cap_end_radius_m: float = 0.0052
+    cap_ridges: int = 18
+    cap_ridge_m: float = 0.0003
+    label_start_x_m: float = -0.055
+    label_end_x_m: float = 0.052
+    stripe_width_m: float = 0.012
+    print_m: float = 0.00015
+
+
+def toothpaste(size: Toothpaste = Toothpaste()) -> ObjectModel:
+    """Build the tube with parts body, fold, label, stripe, shoulder and cap."""
+    body = _tube_body(size)
+    middle_m = (size.label_start_x_m + size.label_end_x_m) / 2
+    label = _between(_tube_body(size, size.print_m), size.label_start_x_m, size.label_end_x_m)
+    stripe = _between(
+        _tube_body(size, 2 * size.print_m),
+        middle_m - size.stripe_width_m / 2,
+        middle_m + size.stripe_width_m / 2,
+    )
+    fold = solids.box((0.0093, 2 * size.stations[0][1], size.fold_thickness_m))
+    parts = (
+        Part("body", body, WHITE_TUBE),
+        Part("label", label, RED_PRINT),
+        Part("stripe", stripe, WHITE_TUBE),
+        Part("fold", fold.translate((size.fold_x_m + 0.00465, 0.0, 0.0)), BLUE_PRINT),
+        Part("shoulder", _tube_shoulder(size), WHITE_TUBE),
+        Part("cap", _tube_cap(size), BLUE_PRINT),
+    )
+    return ObjectModel(parts, density_kg_m3=1100.0)
+
+
+def _tube_body(size: Toothpaste, swell_m: float = 0.0) -> Manifold:
+    stations, halves = lofts.interpolate_stations(size.stations, count=48)
+    outlines = [sections.superellipse(y + swell_m, z + swell_m) for y, z in halves]
+    return lofts.loft_along("x", stations, outlines)
+
+
+def _between(solid: Manifold, low_m: float, high_m: float) -> Manifold:
+    return solids.slabs(solid, [low_m, high_m], "x")[1]
+
+
+def _tube_shoulder(size: Toothpaste) -> Manifold:
+    """Return the cone from the tube to the threaded neck."""
+    start_m, _, radius_m = size.stations[-1]
+    profile = [
+        (0.0, start_m - 0.002),
+        (0.95 * radius_m, start_m - 0.002),
+        (radius_m, start_m),
+        (size.neck_radius_m, size.shoulder_end_x_m),
+        (size.neck_radius_m, size.cap_start_x_m + 0.001),
+        (0.0, size.cap_start_x_m + 0.001),
+    ]
+    return solids.revolve(profile, axis="x", segments=64)
+
+
+def _tube_cap(size: Toothpaste) -> Manifold:
+    """Return the tapered cap with its ridges."""
+    samples = 8 * size.cap_ridges
+    angles = 2 * np.pi * np.arange(samples) / samples
+    wave = size.cap_ridge_m / 2 * np.cos(size.cap_ridges * angles)
+    chamfer_m = 0.0008
+    rows = (
+        (size.cap_start_x_m, size.cap_start_radius_m),
+        (size.cap_end_x_m - chamfer_m, size.cap_end_radius_m),
+        (size.cap_end_x_m, size.cap_end_radius_m - chamfer_m),
+    )
+    rings = [
+        (radius + wave)[:, None] * np.column_stack([np.cos(angles), np.sin(angles)])
+        for _, radius in rows
+    ]
+    return lofts.loft_along("x", [x for x, _ in rows], rings)

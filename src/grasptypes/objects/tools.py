@@ -1,0 +1,234 @@
+"""Hammer and flashlight, in ContactDB's frame and size (metres)."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from manifold3d import Manifold
+
+from grasptypes.objects import lofts, sections, solids
+from grasptypes.objects.parts import Material, ObjectModel, Part
+
+STEEL = Material((0.56, 0.58, 0.61, 1.0), metallic=0.3, roughness=0.4)
+POLISHED_STEEL = Material((0.74, 0.76, 0.79, 1.0), metallic=0.3, roughness=0.3)
+ASH_WOOD = Material((0.76, 0.53, 0.29, 1.0), roughness=0.7)
+ANODISED_RED = Material((0.62, 0.07, 0.08, 1.0), metallic=0.2, roughness=0.4)
+BLACK_PLASTIC = Material((0.09, 0.09, 0.10, 1.0), roughness=0.5)
+REFLECTOR = Material((0.82, 0.83, 0.85, 1.0), metallic=0.2, roughness=0.25)
+WARM_LENS = Material((1.0, 0.90, 0.45, 1.0), roughness=0.2)
+
+
+@dataclass(frozen=True)
+class Hammer:
+    """Claw hammer: handle along +x, head axis along y with the face up and the claw down.
+
+    Attributes:
+        handle_stations: rows of x, half width along y, half thickness along z.
+        claw_stations: rows of y, x of the outer curve, x of the inner curve.
+    """
+
+    head_x_m: float = -0.0697
+    head_width_m: float = 0.0231
+    head_start_y_m: float = -0.0165
+    head_end_y_m: float = 0.0231
+    head_chamfer_m: float = 0.002
+    neck_radius_m: float = 0.0064
+    neck_y_m: float = 0.0276
+    face_start_y_m: float = 0.0355
+    face_radius_m: float = 0.0116
+    face_end_y_m: float = 0.0475
+    face_chamfer_m: float = 0.0012
+    claw_stations: tuple[tuple[float, float, float], ...] = (
+        (-0.0697, -0.0629, -0.0580),
+        (-0.0591, -0.0679, -0.0597),
+        (-0.0484, -0.0719, -0.0610),
+        (-0.0272, -0.0787, -0.0633),
+        (-0.0165, -0.0812, -0.0582),
+    )
+    claw_gap_m: float = 0.0124
+    handle_y_m: float = 0.0050
+    handle_stations: tuple[tuple[float, float, float], ...] = (
+        (-0.0620, 0.0062, 0.0086),
+        (0.0150, 0.0117, 0.0101),
+        (0.0900, 0.0174, 0.0116),
+        (0.1000, 0.0164, 0.0116),
+        (0.1239, 0.0113, 0.0116),
+    )
+    handle_exponent: float = 3.6
+
+
+def hammer(size: Hammer = Hammer()) -> ObjectModel:
+    """Build the hammer with parts head, face, claw and handle."""
+    head, face = _hammer_head(size)
+    parts = (
+        Part("handle", _hammer_handle(size), ASH_WOOD, density_kg_m3=700.0),
+        Part("head", head, STEEL),
+        Part("face", face, POLISHED_STEEL),
+        Part("claw", _hammer_claw(size), STEEL),
+    )
+    return ObjectModel(parts, density_kg_m3=7850.0)
+
+
+def _hammer_handle(size: Hammer) -> Manifold:
+    stations, halves = lofts.interpolate_stations(size.handle_stations)
+    outlines = [
+        lofts.even_superellipse(width, thickness, size.handle_exponent) + [size.handle_y_m, 0.0]
+        for width, thickness in halves
+    ]
+    return lofts.loft_along("x", stations, outlines)
+
+
+def _hammer_head(size: Hammer) -> tuple[Manifold, Manifold]:
+    """Return the head's block with its neck, and the striking face."""
+    chamfer = size.face_chamfer_m
+    shoulder_m = size.head_end_y_m + 0.0015
+    neck_overlap_m = 0.002
+    neck = [
+        (0.0, shoulder_m - neck_overlap_m),
+        (size.face_radius_m - 0.0016, shoulder_m - neck_overlap_m),
+        (size.face_radius_m - 0.0016, shoulder_m),
+        (size.neck_radius_m, size.neck_y_m),
+        (0.7 * size.neck_radius_m + 0.3 * size.face_radius_m, size.neck_y_m + 0.0035),
+        (size.face_radius_m, size.face_start_y_m),
+        (0.0, size.face_start_y_m),
+    ]
+    face = [
+        (0.0, size.face_start_y_m),
+        (size.face_radius_m, size.face_start_y_m),
+        (size.face_radius_m, size.face_end_y_m - chamfer),
+        (size.face_radius_m - chamfer, size.face_end_y_m),
+        (0.0, size.face_end_y_m),
+    ]
+    length_m = size.head_end_y_m - size.head_start_y_m
+    width_m = size.head_width_m
+    block = solids.extrude(
+        sections.rounded_rectangle(width_m, width_m, size.head_chamfer_m), length_m, axis="y"
+    ).translate((size.head_x_m, size.head_start_y_m + length_m / 2, 0.0))
+    turned = [
+        solids.revolve(profile, axis="y").translate((size.head_x_m, 0.0, 0.0))
+        for profile in (neck, face)
+    ]
+    return block + turned[0], turned[1]
+
+
+def _hammer_claw(size: Hammer) -> Manifold:
+    stations, curves = lofts.interpolate_stations(size.claw_stations, count=24)
+    side = np.vstack(
+        [
+            np.column_stack([curves[:, 0], stations])[::-1],
+            np.column_stack([curves[:, 1], stations]),
+        ]
+    )
+    tip_m, root_m = size.claw_stations[0][0] - 0.001, size.head_start_y_m - 0.001
+    half_gap_m = size.claw_gap_m / 2
+    # Extruded along x, a polygon lies in (-z, y).
+    gap = solids.extrude(
+        [(half_gap_m, tip_m), (0.0, root_m), (-half_gap_m, tip_m)], 2 * size.head_width_m, axis="x"
+    ).translate((size.head_x_m, 0.0, 0.0))
+    # Keyed into the head, since solids that only touch may stay apart in the union.
+    key = solids.box((0.8 * size.head_width_m, 0.003, 0.8 * size.head_width_m))
+    claw = solids.extrude(side, size.head_width_m) - gap
+    return claw + key.translate((size.head_x_m, size.head_start_y_m + 0.001, 0.0))
+
+
+@dataclass(frozen=True)
+class Flashlight:
+    """Torch along z: tail at the top, lamp head at the bottom, switch on the +y side."""
+
+    body_radius_m: float = 0.0106
+    tail_chamfer_m: float = 0.0020
+    tail_chamfer_height_m: float = 0.0043
+    tail_cap_height_m: float = 0.0140
+    tail_z_m: float = 0.0807
+    collar_start_z_m: float = -0.0245
+    collar_end_z_m: float = -0.0319
+    head_radius_m: float = 0.0153
+    bezel_z_m: float = -0.0514
+    bezel_radius_m: float = 0.0163
+    front_z_m: float = -0.0583
+    front_radius_m: float = 0.0172
+    reflector_z_m: float = -0.0567
+    reflector_radius_m: float = 0.0147
+    reflector_depth_m: float = 0.0180
+    lens_radius_m: float = 0.0095
+    button_z_m: float = -0.0160
+    button_radius_m: float = 0.0058
+    button_top_y_m: float = 0.0137
+    groove_depth_m: float = 0.0005
+    grip_grooves_z_m: tuple[float, ...] = (0.000, 0.012, 0.024, 0.036, 0.048)
+
+
+def flashlight(size: Flashlight = Flashlight()) -> ObjectModel:
+    """Build the flashlight with parts body, tail, head, reflector, lens and button."""
+    body, tail = _flashlight_body(size)
+    head, reflector, lens = _flashlight_head(size)
+    parts = (
+        Part("body", body, ANODISED_RED),
+        Part("tail", tail, BLACK_PLASTIC),
+        Part("head", head, BLACK_PLASTIC),
+        Part("reflector", reflector, REFLECTOR),
+        Part("lens", lens, WARM_LENS),
+        Part("button", _flashlight_button(size), BLACK_PLASTIC),
+    )
+    return ObjectModel(parts, density_kg_m3=1100.0)
+
+
+def _flashlight_body(size: Flashlight) -> tuple[Manifold, Manifold]:
+    """Return the tube with its grip grooves, and the tail cap."""
+    radius_m, tail_z_m = size.body_radius_m, size.tail_z_m
+    tube = [
+        (0.0, size.collar_start_z_m - 0.003),
+        (radius_m, size.collar_start_z_m - 0.003),
+        (radius_m, tail_z_m - size.tail_chamfer_height_m),
+        (radius_m - size.tail_chamfer_m, tail_z_m),
+        (0.0, tail_z_m),
+    ]
+    cap_z_m = tail_z_m - size.tail_cap_height_m
+    body, tail = solids.slabs(solids.revolve(tube), [cap_z_m])
+    groove = solids.torus(radius_m + size.groove_depth_m, 2 * size.groove_depth_m)
+    seam = solids.torus(radius_m, size.groove_depth_m).translate((0.0, 0.0, cap_z_m))
+    grooves = [groove.translate((0.0, 0.0, z)) for z in size.grip_grooves_z_m]
+    return solids.difference(body, seam, *grooves), tail - seam
+
+
+def _flashlight_head(size: Flashlight) -> tuple[Manifold, Manifold, Manifold]:
+    """Return the lamp head, the conical reflector set into it and the lens in that."""
+    shell = [
+        (0.0, size.front_z_m),
+        (size.front_radius_m, size.front_z_m),
+        (size.bezel_radius_m, size.bezel_z_m),
+        (size.head_radius_m, size.collar_end_z_m),
+        (size.body_radius_m, size.collar_start_z_m),
+        (0.0, size.collar_start_z_m),
+    ]
+    apex_m = size.reflector_z_m + size.reflector_depth_m
+    slope = size.reflector_depth_m / size.reflector_radius_m
+    lip_radius_m = size.front_radius_m - 0.0005
+    lining_m = 0.0004
+    hollow = [
+        (0.0, size.front_z_m),
+        (lip_radius_m, size.front_z_m),
+        (size.reflector_radius_m, size.reflector_z_m),
+        (0.0, apex_m),
+    ]
+    bowl = [
+        (size.reflector_radius_m, size.reflector_z_m - lining_m),
+        (size.reflector_radius_m, size.reflector_z_m + lining_m),
+        (0.0, apex_m + lining_m),
+        (0.0, apex_m - lining_m),
+    ]
+    lens_z_m = apex_m - size.lens_radius_m * slope
+    lens = [(0.0, lens_z_m), (size.lens_radius_m, lens_z_m), (0.0, apex_m)]
+    head, reflector = solids.revolve(shell), solids.revolve(bowl)
+    sunk = solids.revolve(lens).translate((0.0, 0.0, lining_m / 2))
+    return head - solids.revolve(hollow), reflector, sunk
+
+
+def _flashlight_button(size: Flashlight) -> Manifold:
+    """Return the domed rubber switch, sunk into the body."""
+    radius_m, top_m = size.button_radius_m, size.button_top_y_m
+    profile = sections.chain(
+        [(0.0, 0.75 * size.body_radius_m), (radius_m, 0.75 * size.body_radius_m)],
+        [(0.88 * radius_m, top_m - 0.0022), (0.74 * radius_m, top_m - 0.0022)],
+        [(0.45 * radius_m, top_m - 0.0006), (0.0, top_m)],
+    )
+    return solids.revolve(profile, axis="y").translate((0.0, 0.0, size.button_z_m))
