@@ -1,0 +1,123 @@
+"""The hand's surface: closed meshes, mass properties and evenly spread points, link by link."""
+
+from functools import cache
+from typing import NamedTuple
+
+import manifold3d
+import numpy as np
+import trimesh
+from numpy.typing import NDArray
+from scipy.spatial import cKDTree
+
+from grasptypes.hand import kinematics
+from grasptypes.hand.parts import convex_parts
+from grasptypes.seeds import rng
+
+Array = NDArray[np.float64]
+
+# Enough candidates that a disc of the chosen spacing seldom finds none of them (about 25 a disc).
+CANDIDATES_PER_DISC = 25
+
+
+class SurfacePoints(NamedTuple):
+    """Points spread evenly over the hand's surface, each in its own link's frame.
+
+    A point is posed by `T_hand_link[link_index] @ point`.
+    """
+
+    link_index: NDArray[np.int64]
+    """(n,) index into `kinematics.LINK_NAMES`, ascending."""
+    points_m: Array
+    """(n, 3) metres."""
+    normals: Array
+    """(n, 3) unit vectors out of the link."""
+
+
+def collision_parts() -> list[list[Array]]:
+    """Corners (n, 3), metres, of each link's convex parts in the order of `LINK_NAMES`."""
+    return [[part.vertices_m for part in link] for link in convex_parts()]
+
+
+@cache
+def link_meshes() -> tuple[trimesh.Trimesh, ...]:
+    """A closed mesh of every link, metres, in the order of `LINK_NAMES`: its parts united."""
+    return tuple(_united(parts) for parts in collision_parts())
+
+
+def _united(parts: list[Array]) -> trimesh.Trimesh:
+    solids = [manifold3d.Manifold.hull_points(part) for part in parts]
+    mesh = manifold3d.Manifold.batch_boolean(solids, manifold3d.OpType.Add).to_mesh64()
+    return trimesh.Trimesh(mesh.vert_properties[:, :3], mesh.tri_verts, process=True)
+
+
+@cache
+def surface_points(spacing_m: float) -> SurfacePoints:
+    """Points on the surface of all links, no two of a link closer than `spacing_m`.
+
+    Points that a neighbouring link covers whatever the joint's angle, inside the hubs, are left
+    out: nothing can touch them. The result is the same for the same spacing, always.
+    """
+    links, points, normals = [], [], []
+    for index, name in enumerate(kinematics.LINK_NAMES):
+        point, normal = _spread(index, name, spacing_m)
+        seen = ~_always_covered(index, point)
+        links.append(np.full(seen.sum(), index))
+        points.append(point[seen])
+        normals.append(normal[seen])
+    return SurfacePoints(np.concatenate(links), np.concatenate(points), np.concatenate(normals))
+
+
+def _spread(link: int, name: str, spacing_m: float) -> tuple[Array, Array]:
+    """Poisson-disc points and normals of one link: (n, 3), (n, 3)."""
+    mesh = link_meshes()[link]
+    count = int(CANDIDATES_PER_DISC * mesh.area / spacing_m**2)
+    kind = name.split("_")[0]  # so that the three fingers carry the same points
+    seed = int(rng("hand_surface", kind).integers(2**31))
+    candidates, faces = trimesh.sample.sample_surface(mesh, count, seed=seed)
+    free = np.ones(count, dtype=bool)
+    kept = []
+    tree = cKDTree(candidates)
+    for candidate in range(count):
+        if free[candidate]:
+            kept.append(candidate)
+            free[tree.query_ball_point(candidates[candidate], spacing_m)] = False
+    return np.asarray(candidates)[kept], mesh.face_normals[faces[kept]]
+
+
+def _always_covered(link: int, points: Array) -> NDArray[np.bool_]:
+    """Which points (n, 3) of a link lie inside its neighbours over the whole range of the joint."""
+    lower, upper = kinematics.JOINT_LIMITS_RAD.T
+    poses = kinematics.link_poses(np.linspace(lower, upper, 5))
+    covered = np.zeros(len(points), dtype=bool)
+    for joint in kinematics.JOINTS:
+        ends = [kinematics.LINK_NAMES.index(joint.parent), kinematics.LINK_NAMES.index(joint.child)]
+        if link in ends:
+            other = ends[1 - ends.index(link)]
+            T_other_link = np.linalg.inv(poses[:, other]) @ poses[:, link]
+            inside = [inside_link(other, points @ T[:3, :3].T + T[:3, 3]) for T in T_other_link]
+            covered |= np.all(inside, axis=0)
+    return covered
+
+
+@cache
+def _half_spaces(link: int) -> tuple[tuple[Array, Array], ...]:
+    hulls = [trimesh.Trimesh(part.vertices_m, part.faces) for part in convex_parts()[link]]
+    return tuple(
+        (hull.face_normals, np.einsum("fi,fi->f", hull.face_normals, hull.triangles[:, 0]))
+        for hull in hulls
+    )
+
+
+def depth_in_link(link: int, points: Array) -> Array:
+    """How deep points (n, 3) of a link's frame lie in its deepest convex part.
+
+    Returns:
+        (n,) metres, positive inside; outside, minus a lower bound of the distance.
+    """
+    depths = [(offset - points @ normal.T).min(axis=1) for normal, offset in _half_spaces(link)]
+    return np.max(depths, axis=0)
+
+
+def inside_link(link: int, points: Array) -> NDArray[np.bool_]:
+    """Which points (n, 3), metres in the frame of the link with this index, lie inside it."""
+    return depth_in_link(link, points) > 0.0
