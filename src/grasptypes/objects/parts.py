@@ -25,11 +25,13 @@ class Part:
     """A named solid (metres, object frame at scale 1) of one material.
 
     Parts may overlap: the object is their union, and each part owns what it shows of it.
+    `density_kg_m3` is set where the part is of heavier or lighter stuff than the object.
     """
 
     name: str
     solid: Manifold
     material: Material
+    density_kg_m3: float | None = None
 
 
 @dataclass(frozen=True)

@@ -1,4 +1,4 @@
-"""Plane curves and polygons (metres) that the solids are revolved, extruded, lofted and swept from."""
+"""Plane curves and polygons (metres): what solids are revolved, extruded, lofted and swept from."""
 
 from collections.abc import Sequence
 
@@ -90,6 +90,17 @@ def rounded_rectangle(
     return np.vstack(
         [arc(centre, radius_m, turn, turn + 90, corner_samples) for centre, turn in corners]
     )
+
+
+def offset_curve(curve: ArrayLike, distance_m: float) -> Curve:
+    """Move each point of a (N, 2) open curve to the left of its direction of travel.
+
+    The curve should bend with radii above the distance, or the result folds over.
+    """
+    points = np.asarray(curve, dtype=np.float64)
+    tangents = np.gradient(points, axis=0)
+    tangents /= np.linalg.norm(tangents, axis=1, keepdims=True)
+    return points + distance_m * np.column_stack([-tangents[:, 1], tangents[:, 0]])
 
 
 def wall_profile(outer: ArrayLike, inner: ArrayLike) -> Curve:

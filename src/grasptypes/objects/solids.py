@@ -197,6 +197,19 @@ def intersection(solid: Manifold, *others: Manifold) -> Manifold:
     return solid
 
 
+def slabs(solid: Manifold, cuts_m: Sequence[float], axis: str = "z") -> list[Manifold]:
+    """Cut a solid at increasing places along x, y or z; returns the slices from low to high.
+
+    Leave the slices untilted: only cuts at one exact height vanish again in their union.
+    """
+    normal = tuple(float(name == axis) for name in "xyz")
+    slices = []
+    for cut in cuts_m:
+        solid, below = solid.split_by_plane(normal, cut)
+        slices.append(below)
+    return [*slices, solid]
+
+
 def translate(solid: Manifold, x_m: float = 0.0, y_m: float = 0.0, z_m: float = 0.0) -> Manifold:
     """Move a solid."""
     return solid.translate((x_m, y_m, z_m))

@@ -1,0 +1,135 @@
+"""Apple and banana; ContactDB publishes no mesh of them, so they follow usual market sizes."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from manifold3d import Manifold
+
+from grasptypes.objects import sections, solids
+from grasptypes.objects.parts import Material, ObjectModel, Part
+
+APPLE_RED = Material((0.72, 0.07, 0.09, 1.0), roughness=0.3)
+BARK = Material((0.30, 0.19, 0.09, 1.0), roughness=0.9)
+BANANA_YELLOW = Material((0.98, 0.80, 0.13, 1.0), roughness=0.5)
+BANANA_STEM = Material((0.62, 0.60, 0.16, 1.0), roughness=0.7)
+
+Points = tuple[tuple[float, float], ...]
+
+
+@dataclass(frozen=True)
+class Apple:
+    """Apple upright along z; the profile's rows are fractions of the radius and half height."""
+
+    diameter_m: float = 0.0750
+    height_m: float = 0.0680
+    profile: Points = (
+        (0.02, -0.80),
+        (0.10, -0.86),
+        (0.28, -0.99),
+        (0.46, -0.97),
+        (0.72, -0.68),
+        (0.95, -0.08),
+        (0.99, 0.32),
+        (0.86, 0.76),
+        (0.60, 0.99),
+        (0.34, 0.96),
+        (0.14, 0.74),
+        (0.02, 0.58),
+    )
+    lobes: int = 5
+    lobe_depth: float = 0.035
+    stem_length_m: float = 0.0240
+    stem_radius_m: float = 0.0014
+    stem_lean_m: float = 0.0060
+
+
+def apple(size: Apple = Apple()) -> ObjectModel:
+    """Build the apple with parts flesh, stem and calyx."""
+    radius_m, half_m = size.diameter_m / 2, size.height_m / 2
+    curve = sections.smooth_curve(size.profile, 72) * [radius_m, half_m]
+    profile = sections.chain([(0.0, curve[0, 1])], curve, [(0.0, curve[-1, 1])])
+
+    def furrow(points: np.ndarray) -> np.ndarray:
+        """Deepen the furrows between the lobes towards the bottom; points are (N, 3)."""
+        angle = np.arctan2(points[:, 1], points[:, 0])
+        low = np.clip(0.5 - points[:, 2] / size.height_m, 0, 1)
+        factor = 1 - size.lobe_depth * low * (0.5 - 0.5 * np.cos(size.lobes * angle))
+        return points * np.column_stack([factor, factor, np.ones_like(factor)])
+
+    dimple_m = curve[-1, 1]
+    path = sections.smooth_curve(
+        [
+            (0.0, 0.0, dimple_m - 0.003),
+            (0.2 * size.stem_lean_m, 0.0, dimple_m + 0.5 * size.stem_length_m),
+            (size.stem_lean_m, 0.0, dimple_m + size.stem_length_m),
+        ],
+        16,
+    )
+    stem = solids.sweep(
+        path, sections.circle(size.stem_radius_m, 16), np.linspace(0.9, 1.5, 16), up=(0, 1, 0)
+    )
+    calyx = solids.ellipsoid((0.0035, 0.0035, 0.0030), 24).translate((0, 0, curve[0, 1]))
+    parts = (
+        Part("flesh", solids.revolve(profile).warp_batch(furrow), APPLE_RED),
+        Part("stem", stem, BARK),
+        Part("calyx", calyx, BARK),
+    )
+    return ObjectModel(parts, density_kg_m3=840.0)
+
+
+@dataclass(frozen=True)
+class Banana:
+    """Banana along x, stem at -x, its ends bent up to +z; girth rows: fraction of length, radius.
+
+    The origin is the centre of the bounding box.
+    """
+
+    length_m: float = 0.1900
+    bend_radius_m: float = 0.1400
+    girth_m: Points = (
+        (0.00, 0.0052),
+        (0.07, 0.0058),
+        (0.13, 0.0085),
+        (0.22, 0.0142),
+        (0.35, 0.0176),
+        (0.55, 0.0180),
+        (0.75, 0.0165),
+        (0.88, 0.0118),
+        (0.96, 0.0060),
+        (1.00, 0.0040),
+    )
+    ridges: int = 5
+    ridge_height: float = 0.045
+    stem_fraction: float = 0.10
+    tip_fraction: float = 0.025
+
+
+def banana(size: Banana = Banana()) -> ObjectModel:
+    """Build the banana with parts body, stem and tip."""
+    body = _banana_length(size, 0.0, 1.0, 1.0)
+    stem = _banana_length(size, -0.004, size.stem_fraction, 1.04)
+    tip = _banana_length(size, 1.0 - size.tip_fraction, 1.004, 1.05)
+    low_x, _, low_z, high_x, _, high_z = (body + stem + tip).bounding_box()
+    centre = (-(low_x + high_x) / 2, 0.0, -(low_z + high_z) / 2)
+    parts = (
+        Part("body", body.translate(centre), BANANA_YELLOW),
+        Part("stem", stem.translate(centre), BANANA_STEM),
+        Part("tip", tip.translate(centre), BARK),
+    )
+    return ObjectModel(parts, density_kg_m3=950.0)
+
+
+def _banana_length(size: Banana, start: float, end: float, swell: float) -> Manifold:
+    """Sweep the stretch of the banana between two fractions of its length."""
+    half_turn = np.arcsin(size.length_m / 2 / (size.bend_radius_m + size.girth_m[0][1]))
+    along = np.linspace(start, end, max(6, int(80 * (end - start))))
+    turn = half_turn * (2 * along - 1)
+    path = size.bend_radius_m * np.column_stack(
+        [np.sin(turn), np.zeros_like(turn), 1 - np.cos(turn)]
+    )
+    angle = 2 * np.pi * np.arange(60) / 60
+    ridged = 1 + size.ridge_height * (np.cos(size.ridges * (angle + np.pi / 2)) - 1) / 2
+    section = ridged[:, None] * np.column_stack([np.cos(angle), np.sin(angle)])
+    stations, radii = np.asarray(size.girth_m).T
+    scales = swell * sections.monotone_curve(stations, radii, np.clip(along, 0, 1))
+    return solids.sweep(path, section, scales)

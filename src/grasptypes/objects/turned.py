@@ -1,0 +1,181 @@
+"""Closed turned objects in ContactDB's frame and size: water bottle and light bulb."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from manifold3d import Manifold
+
+from grasptypes.objects import sections, solids
+from grasptypes.objects.parts import Material, ObjectModel, Part
+
+WATER_BLUE = Material((0.52, 0.76, 0.90, 1.0), roughness=0.15)
+LABEL_BLUE = Material((0.07, 0.22, 0.62, 1.0), roughness=0.5)
+LABEL_WHITE = Material((0.96, 0.96, 0.97, 1.0), roughness=0.5)
+CAP_WHITE = Material((0.95, 0.95, 0.96, 1.0), roughness=0.4)
+OPAL_GLASS = Material((0.98, 0.96, 0.88, 1.0), roughness=0.25)
+BRASS = Material((0.72, 0.60, 0.34, 1.0), metallic=0.5, roughness=0.35)
+BLACK_GLASS = Material((0.06, 0.06, 0.07, 1.0), roughness=0.4)
+
+Points = tuple[tuple[float, float], ...]
+
+
+@dataclass(frozen=True)
+class WaterBottle:
+    """Filled bottle upright along z, with five feet pressed into its base.
+
+    Attributes:
+        groove_start_m, groove_end_m: radius and height of the grooves' ridge line.
+    """
+
+    body_radius_m: float = 0.0301
+    bottom_height_m: float = -0.0606
+    foot_radius_m: float = 0.0247
+    foot_round_height_m: float = 0.0130
+    dimple_radius_m: float = 0.0123
+    dimple_height_m: float = 0.0025
+    grooves: int = 5
+    groove_start_m: tuple[float, float] = (0.0066, -0.0580)
+    groove_end_m: tuple[float, float] = (0.0310, -0.0480)
+    groove_half_angle_deg: float = 40.0
+    label_bottom_m: float = -0.0300
+    label_top_m: float = 0.0220
+    shoulder_height_m: float = 0.0300
+    neck_height_m: float = 0.0586
+    neck_radius_m: float = 0.0090
+    collar_height_m: float = 0.0613
+    collar_thickness_m: float = 0.0017
+    cap_radius_m: float = 0.0121
+    cap_bottom_m: float = 0.0653
+    cap_top_m: float = 0.0759
+
+
+def water_bottle(size: WaterBottle = WaterBottle()) -> ObjectModel:
+    """Build the water bottle with parts cap, neck, shoulder, label and body."""
+    foot = size.foot_radius_m
+    turn = np.radians(np.linspace(0, 90, 17))
+    low = np.column_stack(
+        [
+            foot + (size.body_radius_m - foot) * np.sin(turn),
+            size.bottom_height_m + size.foot_round_height_m * (1 - np.cos(turn)),
+        ]
+    )
+    rise = np.column_stack(
+        [
+            size.body_radius_m * np.cos(turn),
+            size.shoulder_height_m
+            + (size.neck_height_m + 0.0008 - size.shoulder_height_m) * np.sin(turn),
+        ]
+    )
+    dimple = [
+        (0.0, size.bottom_height_m + size.dimple_height_m),
+        (size.dimple_radius_m / 2, size.bottom_height_m + size.dimple_height_m),
+        (size.dimple_radius_m, size.bottom_height_m),
+    ]
+    vessel = solids.revolve(sections.chain(dimple, low, rise))
+    body, label, shoulder = solids.slabs(
+        vessel - _petal_grooves(size), [size.label_bottom_m, size.label_top_m]
+    )
+    neck = _disc(size.neck_radius_m, size.shoulder_height_m, size.cap_bottom_m + 0.001)
+    collar = _disc(
+        size.cap_radius_m, size.collar_height_m, size.collar_height_m + size.collar_thickness_m
+    )
+    parts = (
+        Part("cap", _disc(size.cap_radius_m, size.cap_bottom_m, size.cap_top_m), CAP_WHITE),
+        Part("neck", neck + collar, WATER_BLUE),
+        Part("shoulder", shoulder, WATER_BLUE),
+        Part("label", label, LABEL_BLUE),
+        Part("body", body, WATER_BLUE),
+    )
+    return ObjectModel(parts, density_kg_m3=1000.0)
+
+
+def _disc(radius_m: float, bottom_m: float, top_m: float) -> Manifold:
+    return solids.cylinder(radius_m, top_m - bottom_m).translate((0, 0, (bottom_m + top_m) / 2))
+
+
+def _petal_grooves(size: WaterBottle) -> Manifold:
+    """Return the V grooves between the feet: wedges whose ridge climbs outwards."""
+    (start_r, start_z), (end_r, end_z) = size.groove_start_m, size.groove_end_m
+    slope = (end_z - start_z) / (end_r - start_r)
+    reach = np.array([0.0, 1.3 * size.body_radius_m])
+    ridge = start_z + slope * (reach - start_r)
+    floor_m = size.bottom_height_m - 0.001
+    half_width = np.maximum(ridge - floor_m, 1e-4) * np.tan(np.radians(size.groove_half_angle_deg))
+    wedge = solids.loft(
+        [
+            [(radius, -width, floor_m), (radius, width, floor_m), (radius, 0.0, top)]
+            for radius, width, top in zip(reach, half_width, ridge, strict=True)
+        ]
+    )
+    turns = 180.0 + 360.0 * np.arange(size.grooves) / size.grooves
+    return solids.union(*(wedge.rotate((0, 0, turn)) for turn in turns))
+
+
+@dataclass(frozen=True)
+class LightBulb:
+    """Light bulb along x, the glass ball at +x; profile rows are radius, x."""
+
+    ball_radius_m: float = 0.0311
+    ball_centre_x_m: float = 0.0165
+    ball_start_deg: float = -33.0
+    neck_profile_m: Points = (
+        (0.0133, -0.0365),
+        (0.0137, -0.0300),
+        (0.0157, -0.0200),
+        (0.0198, -0.0100),
+    )
+    thread_root_radius_m: float = 0.0132
+    thread_crest_radius_m: float = 0.0145
+    thread_pitch_m: float = 0.0040
+    thread_turns: int = 4
+    base_start_x_m: float = -0.0524
+    shell_profile_m: Points = ((0.0076, -0.0580), (0.0106, -0.0560), (0.0126, -0.0540))
+    tip_radius_m: float = 0.0043
+    tip_end_x_m: float = -0.0629
+
+
+def light_bulb(size: LightBulb = LightBulb()) -> ObjectModel:
+    """Build the light bulb with parts glass, screw_base, insulator and contact_tip."""
+    ball = sections.arc(
+        (0.0, size.ball_centre_x_m), size.ball_radius_m, size.ball_start_deg, 90, 48
+    )
+    side = sections.smooth_curve([*size.neck_profile_m, *ball[:2]], 32)
+    glass = sections.chain([(0.0, side[0, 1])], side, ball[2:])
+    insulator = sections.chain(
+        [(0.0, size.tip_end_x_m + 0.0010)],
+        [(size.tip_radius_m, size.tip_end_x_m + 0.0010)],
+        size.shell_profile_m,
+        [(0.0, size.shell_profile_m[-1][1])],
+    )
+    tip_m = 0.004
+    tip = solids.cylinder(size.tip_radius_m, tip_m).translate((0, 0, size.tip_end_x_m + tip_m / 2))
+    parts = (
+        Part("glass", solids.along(solids.revolve(glass), "x"), OPAL_GLASS),
+        Part("screw_base", solids.along(_screw_base(size), "x"), BRASS),
+        Part("insulator", solids.revolve(insulator, "x"), BLACK_GLASS),
+        Part("contact_tip", solids.along(tip, "x"), BRASS),
+    )
+    return ObjectModel(parts, density_kg_m3=2500.0, shell_thickness_m=0.0008)
+
+
+def _screw_base(size: LightBulb) -> Manifold:
+    """Return the base upright: a sleeve with ridges, as coarse as the scan shows the thread."""
+    start, end = size.base_start_x_m, size.neck_profile_m[0][1]
+    sleeve = sections.chain(
+        [(0.0, size.shell_profile_m[-1][1])],
+        [size.shell_profile_m[-1]],
+        [(size.thread_root_radius_m, start), (size.thread_root_radius_m, end + 0.001)],
+        [(0.0, end + 0.001)],
+    )
+    ridge = sections.superellipse(
+        2 * (size.thread_crest_radius_m - size.thread_root_radius_m) / 2,
+        0.35 * size.thread_pitch_m,
+        samples=24,
+    )
+    first = start + 0.6 * size.thread_pitch_m
+    return solids.revolve(sleeve) + solids.union(
+        *(
+            solids.revolve(ridge + [size.thread_root_radius_m, first + turn * size.thread_pitch_m])
+            for turn in range(size.thread_turns)
+        )
+    )
