@@ -225,7 +225,8 @@ def _scissors_loop(size: Scissors) -> Manifold:
         (-0.0037, size.pivot_y_m + 0.0110),
         (0.0, size.pivot_y_m),
     ]
-    arm = solids.extrude(shank, size.half_thickness_m, centred=False)
+    arm = solids.extrude(shank, size.half_thickness_m + size.blade_inset_m, centred=False)
+    arm = arm.translate((0.0, 0.0, -size.blade_inset_m))
     return ring + (arm - solids.extrude(hole + centre, 1.0))
 
 
@@ -233,4 +234,5 @@ def _scissors_stop(size: Scissors) -> Manifold:
     """Return the bump between the loops, on the left one."""
     height_m = 2 * (size.half_thickness_m - size.blade_inset_m)
     bump = solids.cylinder(size.stop_radius_m, height_m)
-    return bump.translate((size.loop_x_m - size.loop_width_m / 2 - 0.0040, size.stop_y_m, 0.0))
+    inner_edge_m = size.loop_width_m / 2 - size.loop_x_m
+    return bump.translate((inner_edge_m - 0.4 * size.stop_radius_m, size.stop_y_m, 0.0))
