@@ -1,0 +1,158 @@
+"""The authors' published dataset: one row an object, task and session, with its grasp's label."""
+
+import io
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+from numpy.typing import NDArray
+
+from grasptypes.errors import InputError
+from grasptypes.hand import configuration
+
+TASKS = ("handoff", "use")
+GRASP_TYPES = (
+    "Large Wrap",
+    "Medium Wrap",
+    "Small Wrap",
+    "Power Sphere",
+    "Precision Sphere",
+    "Precision",
+    "Invalid",
+)
+
+# Published numbers have six digits; a pose further from a rigid one is not a rounding error.
+RIGID_TOLERANCE = 1e-3
+
+
+def _whole(text: str) -> int:
+    if not text.lstrip("-").isdecimal():
+        raise ValueError(f"{text!r} is not a whole number")
+    return int(text)
+
+
+def _count(text: str) -> int:
+    if _whole(text) < 1:
+        raise ValueError(f"{text} is not a whole number from 1 up")
+    return int(text)
+
+
+def _number(text: str) -> float:
+    try:
+        number = float(text)
+    except ValueError as error:
+        raise ValueError(f"{text!r} is not a number") from error
+    if not np.isfinite(number):
+        raise ValueError(f"{text!r} is not a finite number")
+    return number
+
+
+def _text(text: str) -> str:
+    if not text.strip():
+        raise ValueError("is empty")
+    return text
+
+
+def _one_of(allowed: tuple[str, ...]) -> Callable[[str], str]:
+    def check(text: str) -> str:
+        if text not in allowed:
+            raise ValueError(f"{text!r} is not one of {', '.join(allowed)}")
+        return text
+
+    return check
+
+
+def _type_index(text: str) -> int:
+    if not 1 <= _whole(text) <= len(GRASP_TYPES):
+        raise ValueError(f"{text} is not an index from 1 to {len(GRASP_TYPES)}")
+    return int(text)
+
+
+def parse_configuration(text: str) -> NDArray[np.float64] | None:
+    """The 17 numbers (17,) of a HandConfiguration cell, metres and radians; None if it is blank.
+
+    Raises:
+        ValueError: not 17 finite numbers, the first not a whole one, or a pose that is not rigid.
+    """
+    if not text.strip():
+        return None
+    numbers = np.array([_number(cell) for cell in text.split(",")])
+    if len(numbers) != configuration.LENGTH:
+        raise ValueError(f"has {len(numbers)} numbers instead of {configuration.LENGTH}")
+    if numbers[0] < 0 or numbers[0] % 1:
+        raise ValueError(f"its rank index {numbers[0]} is not a whole number from 0 up")
+    rotation = configuration.unpack(numbers).T_object_hand[:3, :3]
+    error = np.abs(rotation @ rotation.T - np.eye(3)).max()
+    if error > RIGID_TOLERANCE or np.linalg.det(rotation) < 0:
+        raise ValueError("its 3x4 pose holds no rotation (orthonormal, right-handed)")
+    return numbers
+
+
+# Published column, ours, and how a cell is read. Type 7 is Invalid; names are right where a row's
+# index differs from its name (one Invalid row carries 4).
+COLUMNS: tuple[tuple[str, str, Callable[[str], object]], ...] = (
+    ("Index", "index", _whole),
+    ("Object", "object", _text),
+    ("Intent", "task", _one_of(TASKS)),
+    ("Session", "session", _count),
+    ("GraspType", "grasp_type", _one_of(GRASP_TYPES)),
+    ("GraspTypeIndex", "grasp_type_index", _type_index),
+    ("Rank", "rank", _count),
+    ("Error", "energy", _number),
+    ("PoseIndex", "pose_index", _whole),
+    ("HandConfiguration", "hand_configuration", parse_configuration),
+    ("Image", "image", str),
+)
+
+
+def read_published(path: str | Path) -> pd.DataFrame:
+    """Read GraspTypesWithTasks.csv, every cell checked.
+
+    Returns:
+        One row a grasp in the file's order, with the columns index, object, task, session,
+        grasp_type, grasp_type_index, rank, energy, pose_index, hand_configuration and image.
+        A hand_configuration is an array (17,), see `hand.configuration`, or None where the file
+        leaves it blank. Its DOFs are spread, F1, F2, F3 of GraspIt!'s `Barrett`, and may exceed
+        the real hand's limits.
+
+    Raises:
+        InputError: naming the file, and the line and column that cannot be used.
+    """
+    path = Path(path)
+    cells = _read_cells(path)
+    missing = [name for name, _, _ in COLUMNS if name not in cells.columns]
+    if missing:
+        raise InputError(path, missing[0], "this column is missing")
+    table = pd.DataFrame(
+        {ours: _read_column(path, cells[theirs], read) for theirs, ours, read in COLUMNS}
+    )
+    repeated = table.duplicated(["object", "task", "session"])
+    if repeated.any():
+        row = int(repeated.to_numpy().argmax())
+        key = f"line {row + 2}"
+        raise InputError(path, key, "this object, task and session are there twice")
+    return table
+
+
+def _read_cells(path: Path) -> pd.DataFrame:
+    """All cells as text; a byte order mark is dropped."""
+    try:
+        text = path.read_text(encoding="utf-8-sig")
+        return pd.read_csv(io.StringIO(text), dtype=str, keep_default_na=False)
+    except (FileNotFoundError, IsADirectoryError) as error:
+        raise InputError(path, "", "no such file") from error
+    except UnicodeDecodeError as error:
+        raise InputError(path, "", f"not UTF-8 text: {error}") from error
+    except (pd.errors.ParserError, pd.errors.EmptyDataError) as error:
+        raise InputError(path, "", f"not a CSV table: {error}") from error
+
+
+def _read_column(path: Path, cells: pd.Series, read: Callable[[str], object]) -> pd.Series:
+    values = []
+    for row, cell in enumerate(cells):
+        try:
+            values.append(read(cell))
+        except ValueError as error:
+            raise InputError(path, f"line {row + 2}, {cells.name}", str(error)) from error
+    return pd.Series(values, dtype=object if read is parse_configuration else None)
