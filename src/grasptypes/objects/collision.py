@@ -1,0 +1,107 @@
+"""Convex collision parts: a solid cut by planes until the hulls of its pieces hug it."""
+
+from __future__ import annotations
+
+import heapq
+import itertools
+from collections.abc import Sequence
+
+import numpy as np
+from manifold3d import Manifold
+
+from grasptypes.objects import solids
+
+# The axes and the diagonals of the coordinate planes; turned solids need the diagonals.
+_NORMALS = tuple(
+    tuple(direction / np.linalg.norm(direction))
+    for direction in np.array(
+        [
+            (1, 0, 0),
+            (0, 1, 0),
+            (0, 0, 1),
+            (1, 1, 0),
+            (1, -1, 0),
+            (1, 0, 1),
+            (1, 0, -1),
+            (0, 1, 1),
+            (0, 1, -1),
+        ],
+        dtype=np.float64,
+    )
+)
+
+
+def convex_parts(
+    parts: Sequence[Manifold],
+    max_parts: int,
+    max_gap_m: float,
+    tolerance_m: float,
+    max_vertices: int,
+    cut_fractions: Sequence[float] = (0.3, 0.5, 0.7),
+) -> list[Manifold]:
+    """Cover solids with convex hulls that leave their hollows open.
+
+    Starts from the construction parts and cuts, again and again, the piece whose hull holds
+    the most empty space, by the plane that leaves the least. Exact on thin walls, repeatable,
+    and done in seconds where sampling methods (CoACD, V-HACD) take many.
+
+    Args:
+        parts: solids in metres; their union is the object.
+        max_parts: most hulls to return.
+        max_gap_m: stop once the hulls' empty space, spread over the parts' surface, is no
+            thicker than this.
+        tolerance_m: how far vertices may be simplified away, before and after cutting.
+        max_vertices: most vertices of one hull; rounder ones are cut down to their extreme
+            points in as many directions.
+        cut_fractions: where planes are tried, as fractions of a piece's extent.
+
+    Returns:
+        Convex solids, largest first.
+    """
+    coarse = [part.simplify(tolerance_m) for part in parts]
+    order = itertools.count()
+    heap = [(-_excess(bit), next(order), bit) for part in coarse for bit in part.decompose()]
+    heapq.heapify(heap)
+    allowed = max_gap_m * sum(part.surface_area() for part in coarse)
+    while len(heap) < max_parts and -sum(entry[0] for entry in heap) > allowed:
+        for bit in _best_cut(heapq.heappop(heap)[2], cut_fractions):
+            heapq.heappush(heap, (-_excess(bit), next(order), bit))
+    hulls = [
+        _lighten(piece.hull().simplify(tolerance_m).hull(), max_vertices) for _, _, piece in heap
+    ]
+    return sorted(hulls, key=lambda hull: -hull.volume())
+
+
+def _lighten(hull: Manifold, max_vertices: int) -> Manifold:
+    """Keep a hull's extreme points in evenly spread (Fibonacci) directions."""
+    if hull.num_vert() <= max_vertices:
+        return hull
+    steps = np.arange(max_vertices) + 0.5
+    height = 1 - 2 * steps / max_vertices
+    turn = np.pi * (1 + 5**0.5) * steps
+    ring = np.sqrt(1 - height**2)
+    directions = np.column_stack([ring * np.cos(turn), ring * np.sin(turn), height])
+    corners = solids.to_mesh(hull)[0]
+    return Manifold.hull_points(corners[np.unique((corners @ directions.T).argmax(axis=0))])
+
+
+def _excess(piece: Manifold) -> float:
+    """Return the volume in m3 that the convex hull adds to a piece."""
+    return max(piece.hull().volume() - piece.volume(), 0.0)
+
+
+def _best_cut(piece: Manifold, fractions: Sequence[float]) -> list[Manifold]:
+    """Return the pieces of the cut that leaves the least empty space in the hulls."""
+    corners = solids.to_mesh(piece)[0]
+    best = [piece]
+    best_excess = np.inf
+    for normal in _NORMALS:
+        reach = corners @ np.asarray(normal)
+        low, high = float(reach.min()), float(reach.max())
+        for fraction in fractions:
+            halves = piece.split_by_plane(normal, low + fraction * (high - low))
+            bits = [bit for half in halves for bit in half.decompose() if not bit.is_empty()]
+            excess = sum(_excess(bit) for bit in bits)
+            if len(bits) > 1 and excess < best_excess:
+                best, best_excess = bits, excess
+    return best

@@ -1,0 +1,193 @@
+"""From an object's model to the files that contact maps, grasps and pictures are made from."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import trimesh
+from manifold3d import Manifold
+from numpy.typing import NDArray
+
+from grasptypes import object_files
+from grasptypes.distance_grid import DistanceGrid
+from grasptypes.files import write_bytes
+from grasptypes.object_files import Properties, Surface
+from grasptypes.objects import collision, inertia, solids
+from grasptypes.objects.parts import Material, ObjectModel, Part
+
+
+@dataclass(frozen=True)
+class Resolution:
+    """How finely an object's files follow its model.
+
+    Attributes:
+        surface_tolerance_m: how far the surface may be simplified before it is meshed evenly.
+        surface_edge_m: longest edge of the surface, about.
+        crease_deg: edges sharper than this are shaded sharp.
+        grid_spacing_m, grid_margin_m: of the distance grid.
+        collision_max_parts, collision_max_gap_m, collision_tolerance_m,
+            collision_max_vertices: see `collision.convex_parts`.
+    """
+
+    surface_tolerance_m: float
+    surface_edge_m: float
+    crease_deg: float
+    grid_spacing_m: float
+    grid_margin_m: float
+    collision_max_parts: int
+    collision_max_gap_m: float
+    collision_tolerance_m: float
+    collision_max_vertices: int
+
+
+def prepare(
+    name: str,
+    model: ObjectModel,
+    scale: float,
+    resolution: Resolution,
+    folder: str | Path,
+    mass_kg: float | None = None,
+    repairs: tuple[str, ...] = (),
+) -> Properties:
+    """Write an object's five files (see `object_files`) at `scale` times the model's size.
+
+    Args:
+        mass_kg: replaces the mass that follows from the densities; the inertia follows suit.
+        repairs: what was mended before, to be kept with the properties.
+    """
+    folder = Path(folder)
+    parts = scaled_parts(model, scale)
+    surface = part_surface(parts, resolution.surface_tolerance_m, resolution.surface_edge_m)
+    properties = physical_properties(name, model, scale, mass_kg, repairs)
+    hulls = collision.convex_parts(
+        [part.solid for part in parts],
+        resolution.collision_max_parts,
+        resolution.collision_max_gap_m,
+        resolution.collision_tolerance_m,
+        resolution.collision_max_vertices,
+    )
+    outline = solids.to_mesh(joined(parts).simplify(resolution.surface_tolerance_m))
+    grid = DistanceGrid.from_mesh(*outline, resolution.grid_spacing_m, resolution.grid_margin_m)
+    object_files.write_surface(folder / object_files.SURFACE, surface)
+    object_files.write_properties(folder / object_files.PROPERTIES, properties)
+    object_files.write_collision(
+        folder / object_files.COLLISION, [solids.to_mesh(hull) for hull in hulls]
+    )
+    grid.save(folder / object_files.DISTANCE_GRID)
+    write_bytes(folder / object_files.VISUAL, visual_glb(parts, resolution.crease_deg))
+    return properties
+
+
+def scaled_parts(model: ObjectModel, scale: float) -> list[Part]:
+    """Return the model's parts at `scale`, each an original whose faces can be traced."""
+    return [
+        Part(
+            part.name,
+            part.solid.scale((scale, scale, scale)).as_original(),
+            part.material,
+            part.density_kg_m3,
+        )
+        for part in model.parts
+    ]
+
+
+def joined(parts: list[Part]) -> Manifold:
+    """Return the union of the parts' solids."""
+    return solids.union(*(part.solid for part in parts))
+
+
+def face_parts(solid: Manifold, parts: list[Part]) -> NDArray[np.int16]:
+    """Return for each face (F,) of the parts' union the index of the part it comes from."""
+    mesh = solid.to_mesh64()
+    index_of = {part.solid.original_id(): index for index, part in enumerate(parts)}
+    counts = np.diff(np.asarray(mesh.run_index)) // 3
+    owners = [index_of[int(original)] for original in mesh.run_original_id]
+    return np.repeat(np.array(owners, dtype=np.int16), counts)
+
+
+def part_surface(parts: list[Part], tolerance_m: float, edge_m: float) -> Surface:
+    """Mesh the union evenly and name each vertex's part; parts of one name count as one.
+
+    A vertex between parts goes to the one named first.
+    """
+    solid = joined(parts).simplify(tolerance_m).refine_to_length(edge_m)
+    vertices, faces = solids.to_mesh(solid)
+    names = list(dict.fromkeys(part.name for part in parts))
+    name_of_part = np.array([names.index(part.name) for part in parts], dtype=np.int16)
+    part_index = np.full(len(vertices), len(names), dtype=np.int16)
+    owners = name_of_part[face_parts(solid, parts)]
+    np.minimum.at(part_index, faces.reshape(-1), np.repeat(owners, 3))
+    return Surface(vertices, faces, part_index, np.array(names))
+
+
+def physical_properties(
+    name: str,
+    model: ObjectModel,
+    scale: float,
+    mass_kg: float | None = None,
+    repairs: tuple[str, ...] = (),
+) -> Properties:
+    """Weigh the model: its whole volume, or its surface if it has a shell thickness."""
+    parts = scaled_parts(model, scale)
+    densities = [part.density_kg_m3 or model.density_kg_m3 for part in parts]
+    solid = joined(parts)
+    vertices, faces = solids.to_mesh(solid)
+    if model.shell_thickness_m is None:
+        bodies, taken = [], Manifold()
+        for part, density in zip(parts, densities, strict=True):
+            bodies.append(inertia.solid_masses(*solids.to_mesh(part.solid - taken), density))
+            taken += part.solid
+    else:
+        thickness_m = model.shell_thickness_m * scale
+        areal = thickness_m * np.array(densities)[face_parts(solid, parts)]
+        bodies = [inertia.shell_masses(vertices, faces, areal)]
+    mass, centre_m, tensor = inertia.mass_properties(inertia.together(bodies))
+    factor = 1.0 if mass_kg is None else mass_kg / mass
+    return Properties(
+        object=name,
+        scale=scale,
+        mass_kg=mass * factor,
+        centre_of_mass_m=centre_m.tolist(),
+        inertia_kg_m2=(tensor * factor).tolist(),
+        density_kg_m3=model.density_kg_m3 * factor,
+        shell_thickness_m=model.shell_thickness_m and model.shell_thickness_m * scale,
+        volume_m3=solid.volume(),
+        watertight=True,
+        bounds_m=[vertices.min(axis=0).tolist(), vertices.max(axis=0).tolist()],
+        repairs=list(repairs),
+    )
+
+
+def visual_glb(parts: list[Part], crease_deg: float) -> bytes:
+    """Return a binary glTF of what each part shows of the union, with smooth normals."""
+    solid = joined(parts).calculate_normals(0, crease_deg)
+    mesh = solid.to_mesh64()
+    vertices, normals = np.split(np.asarray(mesh.vert_properties)[:, :6], 2, axis=1)
+    faces = np.asarray(mesh.tri_verts)
+    owners = face_parts(solid, parts)
+    scene = trimesh.Scene()
+    for index, part in enumerate(parts):
+        used, local = np.unique(faces[owners == index], return_inverse=True)
+        if len(used) == 0:
+            continue
+        shown = trimesh.Trimesh(
+            vertices[used], local.reshape(-1, 3), vertex_normals=normals[used], process=False
+        )
+        shown.visual = trimesh.visual.TextureVisuals(material=_pbr(part.name, part.material))
+        scene.add_geometry(
+            shown, geom_name=f"{part.name}_{index}", node_name=f"{part.name}_{index}"
+        )
+    return scene.export(file_type="glb", include_normals=True)
+
+
+def _pbr(name: str, material: Material) -> trimesh.visual.material.PBRMaterial:
+    opaque = material.base_color[3] >= 1.0
+    return trimesh.visual.material.PBRMaterial(
+        name=name,
+        baseColorFactor=np.round(np.array(material.base_color) * 255).astype(np.uint8),
+        metallicFactor=material.metallic,
+        roughnessFactor=material.roughness,
+        alphaMode="OPAQUE" if opaque else "BLEND",
+    )
