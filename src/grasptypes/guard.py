@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import configparser
 import fcntl
 import os
 import shutil
@@ -9,6 +10,8 @@ import sys
 import time
 from pathlib import Path
 from typing import IO
+
+from grasptypes.errors import InputError
 
 
 def use_this_checkout(root: str | Path) -> None:
@@ -55,3 +58,24 @@ def release_dead_lock(state: str | Path = ".snakemake", patience_s: float = 2.0)
     shutil.rmtree(state / "locks", ignore_errors=True)
     (state / "locks").mkdir(exist_ok=True)
     return lock
+
+
+def check_cache_links(root: str | Path) -> None:
+    """Refuse a DVC cache of hard or symbolic links.
+
+    Through a link, a rerun writes into the cache itself: earlier versions are corrupted and stale
+    results pass for current ones.
+
+    Raises:
+        InputError: naming DVC's configuration file and the setting.
+    """
+    for name in ("config", "config.local"):
+        path = Path(root) / ".dvc" / name
+        settings = configparser.ConfigParser(strict=False)
+        settings.read(path)
+        types = settings.get("cache", "type", fallback="").strip("\"'")
+        if "link" in types.replace("reflink", ""):
+            message = (
+                f"'{types}' would corrupt earlier versions; use: dvc config cache.type reflink,copy"
+            )
+            raise InputError(path, "cache.type", message)

@@ -6,11 +6,13 @@ from pathlib import Path
 
 import pytest
 
-from grasptypes.guard import release_dead_lock
+from grasptypes.errors import InputError
+from grasptypes.guard import check_cache_links, release_dead_lock
 
 HOLDER = """
 import sys, time
-from grasptypes.guard import release_dead_lock
+from grasptypes.errors import InputError
+from grasptypes.guard import check_cache_links, release_dead_lock
 lock = release_dead_lock(sys.argv[1])
 print("held", flush=True)
 time.sleep(60)
@@ -56,3 +58,16 @@ def test_a_living_run_keeps_its_lock_and_is_named(
     finally:
         process.kill()
         process.wait()
+
+
+@pytest.mark.parametrize("types", ["hardlink", "symlink", '"reflink,hardlink,copy"'])
+def test_a_cache_of_links_is_refused(tmp_path: Path, types: str) -> None:
+    (tmp_path / ".dvc").mkdir()
+    (tmp_path / ".dvc" / "config.local").write_text(f"[cache]\n    type = {types}\n")
+    with pytest.raises(InputError, match=r"cache\.type"):
+        check_cache_links(tmp_path)
+
+
+def test_copies_and_reflinks_are_fine(tmp_path: Path) -> None:
+    check_cache_links(tmp_path)
+    check_cache_links(Path(__file__).parents[2])

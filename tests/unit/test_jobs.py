@@ -15,7 +15,10 @@ def test_bad_input_is_one_line_and_status_1(
         raise InputError("mesh.stl", "vertices", "NaN at\nrow 3")
     assert raised.value.code == 1
     assert capsys.readouterr().err == "error: mesh.stl: vertices: NaN at row 3\n"
-    assert log.read_text().splitlines() == ["INFO started", "ERROR mesh.stl: vertices: NaN at row 3"]
+    assert log.read_text().splitlines() == [
+        "INFO started",
+        "ERROR mesh.stl: vertices: NaN at row 3",
+    ]
 
 
 def test_other_errors_are_not_swallowed(tmp_path: Path) -> None:

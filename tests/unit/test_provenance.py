@@ -28,7 +28,11 @@ def checkout(tmp_path: Path) -> Path:
 def hash_of(checkout: Path) -> str:
     code = "import sys; from grasptypes.provenance import code_hash; print(code_hash(sys.argv[1]))"
     command = [sys.executable, "-c", code, str(checkout / "script.py")]
-    environment = {**os.environ, "PYTHONPATH": str(checkout / "src"), "PYTHONDONTWRITEBYTECODE": "1"}
+    environment = {
+        **os.environ,
+        "PYTHONPATH": str(checkout / "src"),
+        "PYTHONDONTWRITEBYTECODE": "1",
+    }
     return subprocess.run(
         command, env=environment, capture_output=True, text=True, check=True
     ).stdout.strip()
