@@ -1,0 +1,53 @@
+"""Which pictures are tested in which fold."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+import pandas as pd
+import pandera.pandas as pa
+
+from grasptypes.errors import InputError
+from grasptypes.seeds import rng
+
+FOLD_SCHEMA = pa.DataFrameSchema(
+    {
+        "object": pa.Column(str),
+        "view": pa.Column(int, pa.Check.ge(0)),
+        "fold": pa.Column(int, pa.Check.ge(0)),
+    },
+    strict=True,
+    unique=["object", "view"],
+)
+
+
+def split(views: Mapping[str, int], folds: int, seed: int) -> pd.DataFrame:
+    """Stratified folds over pictures (paper, section IV-A): each holds the same share of each object.
+
+    A fold is given to a picture, before tasks come in, so that all tasks of a picture lie in one.
+
+    Args:
+        views: object to its number of pictures.
+        folds: number of folds.
+        seed: of the workflow.
+
+    Returns:
+        one row a picture: object, view, fold; see :data:`FOLD_SCHEMA`.
+
+    Raises:
+        InputError: an object has fewer pictures than there are folds.
+    """
+    rows = []
+    for position, (name, count) in enumerate(sorted(views.items())):
+        if count < folds:
+            raise InputError(
+                "params.yaml",
+                "folds.count",
+                f"{folds} folds need as many views; {name} has {count}",
+            )
+        # The start moves on from object to object, so that odd pictures do not pile up in fold 0.
+        fold = (np.arange(count) + position) % folds
+        order = rng("folds", name, seed).permutation(count)
+        rows.append(pd.DataFrame({"object": name, "view": order, "fold": fold}))
+    return pd.concat(rows).sort_values(["object", "view"], ignore_index=True)

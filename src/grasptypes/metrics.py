@@ -1,0 +1,94 @@
+"""The three measures of the paper (section IV-B) between predicted and labelled grasp types.
+
+All functions take one row a sample and one column a grasp type, and return one value a sample.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+METRICS = ("angular_similarity", "multilabel_accuracy", "multilabel_precision")
+SIGMOID_THRESHOLD = 0.5  # paper, section IV-B
+
+
+def angular_similarity(predicted: ArrayLike, target: ArrayLike) -> np.ndarray:
+    """1 - 2 angle / pi: 1 for the same direction, 0 for orthogonal non-negative vectors.
+
+    Args:
+        predicted: (..., K) non-negative, no row all zeros.
+        target: (..., K) likewise; broadcast against ``predicted``.
+
+    Raises:
+        ValueError: a negative or non-finite entry, or a row without a direction.
+    """
+    first, second = _directions(predicted), _directions(target)
+    # The chord keeps its precision at small angles, where the arc cosine loses half the digits.
+    half_chord = np.linalg.norm(first - second, axis=-1) / 2
+    return 1 - 4 / np.pi * np.arcsin(np.clip(half_chord, 0, 1))
+
+
+def multilabel_accuracy(predicted: ArrayLike, target: ArrayLike) -> np.ndarray:
+    """Types in both sets over types in either; 1 if both sets are empty.
+
+    Args:
+        predicted: (..., K) truth values.
+        target: (..., K) likewise.
+    """
+    both, either = _overlap(predicted, target)
+    return np.where(either > 0, both / np.maximum(either, 1), 1.0)
+
+
+def multilabel_precision(predicted: ArrayLike, target: ArrayLike) -> np.ndarray:
+    """Types in both sets over predicted types; 0 if none is predicted (1 if none is right).
+
+    Args:
+        predicted: (..., K) truth values.
+        target: (..., K) likewise.
+    """
+    both, either = _overlap(predicted, target)
+    count = np.asarray(predicted, dtype=bool).sum(axis=-1)
+    return np.where(count > 0, both / np.maximum(count, 1), np.where(either > 0, 0.0, 1.0))
+
+
+def softmax(logits: ArrayLike) -> np.ndarray:
+    """(..., K) logits to (..., K) probabilities that sum to one."""
+    shifted = np.exp(logits - np.max(logits, axis=-1, keepdims=True))
+    return shifted / shifted.sum(axis=-1, keepdims=True)
+
+
+def chosen(logits: ArrayLike) -> np.ndarray:
+    """(..., K) logits to the (..., K) types whose sigmoid exceeds 0.5."""
+    limit = np.log(SIGMOID_THRESHOLD / (1 - SIGMOID_THRESHOLD))
+    return np.asarray(logits) > limit
+
+
+def evaluate(logits: ArrayLike, labels: ArrayLike, probabilities: ArrayLike) -> dict[str, float]:
+    """The means over the samples of all three measures.
+
+    Args:
+        logits: (N, K) outputs of a predictor.
+        labels: (N, K) truth values.
+        probabilities: (N, K) probability vectors.
+    """
+    types = chosen(logits)
+    return {
+        "angular_similarity": float(angular_similarity(softmax(logits), probabilities).mean()),
+        "multilabel_accuracy": float(multilabel_accuracy(types, labels).mean()),
+        "multilabel_precision": float(multilabel_precision(types, labels).mean()),
+    }
+
+
+def _directions(vectors: ArrayLike) -> np.ndarray:
+    vectors = np.asarray(vectors, dtype=float)
+    if not np.isfinite(vectors).all() or (vectors < 0).any():
+        raise ValueError("angular similarity needs finite, non-negative vectors")
+    lengths = np.linalg.norm(vectors, axis=-1, keepdims=True)
+    if (lengths == 0).any():
+        raise ValueError("angular similarity needs vectors that are not all zeros")
+    return vectors / lengths
+
+
+def _overlap(predicted: ArrayLike, target: ArrayLike) -> tuple[np.ndarray, np.ndarray]:
+    predicted, target = np.asarray(predicted, dtype=bool), np.asarray(target, dtype=bool)
+    return (predicted & target).sum(axis=-1), (predicted | target).sum(axis=-1)

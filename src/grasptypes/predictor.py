@@ -1,0 +1,152 @@
+"""The predictors of the paper's Table I: what they see, what they answer, and their head."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import torch
+from torch import Tensor, nn
+
+from grasptypes.seeds import seed
+
+LAYERS = 4  # fully connected layers of the head (paper, section III-D)
+
+
+@dataclass(frozen=True)
+class Variant:
+    """One row of Table I.
+
+    Attributes:
+        row: its letter in the paper's table.
+        picture_shows_task: the task is shown by the shift of the picture's colours.
+        task_vector: the task is appended to the second fully connected layer as a one-hot vector.
+        joint_labels: the label holds the types of all tasks together.
+    """
+
+    row: str
+    picture_shows_task: bool
+    task_vector: bool
+    joint_labels: bool
+
+
+VARIANTS = {
+    "no_task": Variant("a", False, False, False),
+    "task_vector": Variant("b", False, True, False),
+    "task_in_image": Variant("c", True, False, False),
+    "ignores_task": Variant("d", False, False, True),
+}
+
+
+@dataclass(frozen=True)
+class Architecture:
+    """Sizes of a head.
+
+    Attributes:
+        inputs: features of a picture.
+        tasks: length of the task vector, 0 for a head that is not told the task.
+        hidden: outputs of the first three layers.
+        outputs: grasp types.
+    """
+
+    inputs: int
+    tasks: int
+    hidden: tuple[int, int, int]
+    outputs: int
+
+    def shapes(self) -> list[tuple[int, int]]:
+        """Inputs and outputs of the four layers; the task joins at the second."""
+        first, second, third = self.hidden
+        return [
+            (self.inputs, first),
+            (first + self.tasks, second),
+            (second, third),
+            (third, self.outputs),
+        ]
+
+
+class Heads(nn.Module):
+    """Any number of heads of one architecture, computed side by side.
+
+    Training the folds and seeds of a table together costs a fraction of training them in turn.
+
+    Args:
+        architecture: the sizes.
+        keys: one for each head; it names the head's random start (see :mod:`grasptypes.seeds`).
+        dropout: share of the first two layers' outputs left out in training.
+    """
+
+    def __init__(
+        self,
+        architecture: Architecture,
+        keys: Sequence[tuple[str | int, ...]],
+        dropout: float = 0.0,
+    ) -> None:
+        super().__init__()
+        self.architecture = architecture
+        self.dropout = dropout
+        self.weights = nn.ParameterList()
+        self.biases = nn.ParameterList()
+        generators = [torch.Generator().manual_seed(seed("head", *key)) for key in keys]
+        for inputs, outputs in architecture.shapes():
+            start = [torch.randn(inputs, outputs, generator=g) for g in generators]
+            self.weights.append(nn.Parameter(torch.stack(start) * (2 / inputs) ** 0.5))
+            self.biases.append(nn.Parameter(torch.zeros(len(keys), 1, outputs)))
+
+    def forward(self, features: Tensor, task: Tensor | None = None) -> Tensor:
+        """Logits (K, B, outputs) of K heads.
+
+        Args:
+            features: (K, B, inputs).
+            task: (K, B, tasks) one-hot, if the architecture has a task vector.
+        """
+        x = features
+        for layer, (weight, bias) in enumerate(zip(self.weights, self.biases, strict=True)):
+            if layer == 1 and task is not None:
+                x = torch.cat([x, task], dim=-1)
+            x = torch.baddbmm(bias, x, weight)
+            if layer < LAYERS - 1:
+                x = torch.relu(x)
+            if layer < 2:
+                x = nn.functional.dropout(x, self.dropout, self.training)
+        return x
+
+    @torch.no_grad()
+    def absorb(self, centre: Tensor, projection: Tensor) -> Heads:
+        """The same heads for inputs ``x`` where these take ``(x - centre) @ projection``.
+
+        Args:
+            centre: (K, 1, F) of each head.
+            projection: (K, F, inputs) of each head.
+        """
+        sizes = self.architecture
+        wide = Architecture(projection.shape[1], sizes.tasks, sizes.hidden, sizes.outputs)
+        heads = Heads(wide, [()] * len(projection), self.dropout)
+        heads.load_state_dict(
+            {name: t for name, t in self.state_dict().items() if name != "weights.0"}, strict=False
+        )
+        heads.weights[0].copy_(torch.bmm(projection, self.weights[0]))
+        heads.biases[0].copy_(self.biases[0] - torch.bmm(centre, heads.weights[0]))
+        return heads.train(self.training)
+
+
+def loss(
+    logits: Tensor, labels: Tensor, probabilities: Tensor, probability_weight: float
+) -> Tensor:
+    """Cross-entropy of the sigmoid with the labels plus that of the softmax with the probabilities.
+
+    With the first alone the softmax vector has an angular similarity of about 0.4, since nothing
+    asks the logits of the types that do not occur to be far below the others.
+
+    Args:
+        logits: (..., types).
+        labels: (..., types) of 0 and 1.
+        probabilities: (..., types), sum 1.
+        probability_weight: of the second term.
+
+    Returns:
+        (...) one value a sample; labels' term is the mean over types.
+    """
+    binary = nn.functional.binary_cross_entropy_with_logits(logits, labels, reduction="none")
+    vector = -(probabilities * torch.log_softmax(logits, dim=-1)).sum(dim=-1)
+    return binary.mean(dim=-1) + probability_weight * vector
