@@ -2,19 +2,37 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass
+from pathlib import Path
 
 import igl
 import numpy as np
+import pandas as pd
+import pandera.pandas as pa
 import trimesh
 from numpy.typing import NDArray
 
-from grasptypes import seeds
+from grasptypes import object_files, seeds
+from grasptypes.errors import InputError
 
 Array = NDArray[np.float64]
 
 # How far off a face its two sides are told apart; far below any wall, far above rounding.
 SIDE_OFFSET_M = 2e-5
+
+
+# Millimetres, because readers compare them with a millimetre ruler in mind.
+SHAPE_TABLE = pa.DataFrameSchema(
+    {
+        "object": pa.Column(str, unique=True),
+        "chamfer_mm": pa.Column(float, pa.Check.ge(0)),
+        "chamfer_p95_mm": pa.Column(float, pa.Check.ge(0)),
+        "iou": pa.Column(float, pa.Check.in_range(0, 1)),
+    },
+    strict=True,
+    ordered=True,
+)
 
 
 @dataclass(frozen=True)
@@ -47,6 +65,39 @@ def compare(
         chamfer_p95_mm=float(np.percentile(pooled_mm, 95)),
         iou=intersection_over_union(model, reference, volume_samples),
     )
+
+
+def compare_folder(
+    objects: Sequence[Path], references: Path, surface_samples: int, volume_samples: int
+) -> pd.DataFrame:
+    """Compare prepared objects with the references `<object>.stl` (metres, scale 1).
+
+    Args:
+        objects: folders as `object_files` describes them; those without a reference are left out.
+        references: folder of reference meshes.
+
+    Returns:
+        A `SHAPE_TABLE`, rounded to what the samples can tell.
+
+    Raises:
+        InputError: the folder holds no reference of any of the objects.
+    """
+    rows = []
+    for folder in objects:
+        properties = object_files.read_properties(folder / object_files.PROPERTIES)
+        path = references / f"{properties['object']}.stl"
+        if not path.is_file():
+            continue
+        surface = object_files.read_surface(folder / object_files.SURFACE)
+        model = trimesh.Trimesh(
+            surface.vertices / properties["scale"], surface.faces, process=False
+        )
+        figures = compare(model, trimesh.load_mesh(path), surface_samples, volume_samples)
+        rows.append({"object": properties["object"], **asdict(figures)})
+    if not rows:
+        raise InputError(references, "", "holds no <object>.stl of the objects compared")
+    table = pd.DataFrame(rows)
+    return table.round({"chamfer_mm": 2, "chamfer_p95_mm": 2, "iou": 3})
 
 
 def inside(mesh: trimesh.Trimesh, points_m: Array) -> NDArray[np.bool_]:

@@ -1,0 +1,71 @@
+"""Measured contact maps of a user's object: ContactDB's thermal scans and files like them."""
+
+from __future__ import annotations
+
+import struct
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import trimesh
+from numpy.typing import NDArray
+
+from grasptypes.errors import InputError
+
+
+@dataclass(frozen=True)
+class ContactScan:
+    """How warm a hand has left the points of an object.
+
+    Attributes:
+        points_m: (N, 3), object frame at the file's own size.
+        intensity: (N,) 0 to 1, NaN where the camera saw nothing.
+    """
+
+    points_m: NDArray[np.float64]
+    intensity: NDArray[np.float64]
+
+
+def read_contact_scan(path: str | Path, metres: float = 1.0) -> ContactScan:
+    """Read a PLY with a colour at every vertex, as ContactDB publishes them.
+
+    The red channel is the thermal intensity and 0 means unseen (ContactDB, Brahmbhatt et al.
+    2019: `<object>_textured.ply`).
+
+    Args:
+        metres: length of the file's unit.
+
+    Raises:
+        InputError: no colour a vertex (for example a texture), or nothing seen.
+    """
+    path = Path(path)
+    if path.suffix.lower() != ".ply":
+        raise InputError(path, "", "is no contact map: a PLY with a colour a vertex is needed")
+    if not path.is_file():
+        raise InputError(path, "", "no such file")
+    try:
+        loaded = trimesh.load(path, process=False)
+    except (ValueError, KeyError, IndexError, struct.error) as error:
+        raise InputError(path, "", f"cannot be read as PLY: {error}") from error
+    red = _red_channel(path, loaded)
+    points_m = np.asarray(loaded.vertices, dtype=np.float64) * metres
+    if not np.isfinite(points_m).all():
+        raise InputError(path, "", "some vertices are not finite numbers (NaN)")
+    if not (red > 0).any():
+        raise InputError(path, "red", "is 0 at every vertex, which means nothing was seen")
+    return ContactScan(points_m, np.where(red > 0, red / 255.0, np.nan))
+
+
+def _red_channel(path: Path, loaded: trimesh.parent.Geometry) -> NDArray[np.float64]:
+    """Return the red channel (N,), 0 to 255, of a mesh or point cloud."""
+    if isinstance(loaded, trimesh.PointCloud):
+        colours = loaded.colors
+    elif isinstance(loaded, trimesh.Trimesh) and loaded.visual.kind == "vertex":
+        colours = loaded.visual.vertex_colors
+    elif isinstance(loaded, trimesh.Trimesh) and loaded.visual.kind == "texture":
+        raise InputError(path, "", "has a texture where a colour a vertex is needed")
+    else:
+        colours = None
+    if colours is None or len(colours) != len(loaded.vertices):
+        raise InputError(path, "", "has no colour a vertex: the red channel is the contact map")
+    return np.asarray(colours)[:, 0].astype(np.float64)

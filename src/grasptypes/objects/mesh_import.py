@@ -1,0 +1,222 @@
+"""A user's own mesh: read, checked, mended and made into an object model."""
+
+from __future__ import annotations
+
+import struct
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import igl
+import numpy as np
+import trimesh
+from manifold3d import Manifold, Mesh64
+from numpy.typing import NDArray
+
+from grasptypes.errors import InputError
+from grasptypes.objects import solids
+from grasptypes.objects.parts import Material, ObjectModel, Part
+
+UNITS_M = {"m": 1.0, "cm": 0.01, "mm": 0.001, "inch": 0.0254}
+FORMATS = (".stl", ".obj", ".ply", ".glb")
+GREY = Material((0.62, 0.62, 0.60, 1.0), roughness=0.6)
+
+
+@dataclass(frozen=True)
+class ImportLimits:
+    """What a mesh must meet, and how one with holes is rebuilt.
+
+    Attributes:
+        min_size_m, max_size_m: allowed longest extent after unit and scale.
+        rebuild_cells: cells along the longest extent when a surface is rebuilt.
+        max_open_share: share of the enclosed space whose winding number is far from whole,
+            above which a mesh counts as an open shell.
+    """
+
+    min_size_m: float
+    max_size_m: float
+    rebuild_cells: int
+    max_open_share: float
+
+
+@dataclass(frozen=True)
+class ImportedModel:
+    """A user's object at the size of its file in metres.
+
+    Attributes:
+        model: one part `body`, or one a named geometry of a GLB.
+        scale: size to prepare it at.
+        mass_kg: given mass, None if the density decides.
+        repairs: what was mended, in words.
+    """
+
+    model: ObjectModel
+    scale: float
+    mass_kg: float | None
+    repairs: tuple[str, ...]
+
+
+def import_model(own: Mapping[str, Any], limits: ImportLimits) -> ImportedModel:
+    """Make a model of a block `objects.own.<name>` of the parameters.
+
+    Args:
+        own: file, unit, and optionally scale, density_kg_m3 or mass_kg, shell_thickness_m.
+        limits: what the mesh must meet.
+
+    Raises:
+        InputError: one line that says why the mesh cannot be used.
+    """
+    path, unit, scale = own["file"], own["unit"], own.get("scale", 1.0)
+    meshes = _read(path, UNITS_M[unit])
+    _check_size(path, meshes, unit, scale, limits)
+    repairs: list[str] = []
+    parts = []
+    for name, mesh in meshes.items():
+        solid = _solid(_tidy(mesh, repairs), repairs)
+        if solid is not None:
+            parts.append(Part(name, solid, GREY))
+    if len(parts) < len(meshes):
+        whole = _tidy(trimesh.util.concatenate(list(meshes.values())), [])
+        parts = [Part("body", _rebuild(path, whole, limits, repairs), GREY)]
+    # With a given mass any density will do: the inertia is scaled to the mass.
+    model = ObjectModel(tuple(parts), own.get("density_kg_m3", 1e3), own.get("shell_thickness_m"))
+    return ImportedModel(model, scale, own.get("mass_kg"), tuple(dict.fromkeys(repairs)))
+
+
+def _read(path: str | Path, metres: float) -> dict[str, trimesh.Trimesh]:
+    """Read the geometries of a mesh file by name, in metres; a single one is the `body`."""
+    path = Path(path)
+    if path.suffix.lower() not in FORMATS:
+        raise InputError(path, "", f"not a mesh format of {', '.join(FORMATS)}")
+    if not path.is_file():
+        raise InputError(path, "", "no such file")
+    try:
+        scene = trimesh.load_scene(path, process=False)
+        geometries = {
+            name: mesh
+            for name, mesh in _placed(scene).items()
+            if isinstance(mesh, trimesh.Trimesh) and len(mesh.faces)
+        }
+    except (ValueError, KeyError, IndexError, struct.error, NotImplementedError) as error:
+        raise InputError(path, "", f"cannot be read as a mesh: {error}") from error
+    if not geometries:
+        raise InputError(path, "", "has no faces: a mesh of triangles is needed")
+    for mesh in geometries.values():
+        if not np.isfinite(mesh.vertices).all():
+            bad = int((~np.isfinite(mesh.vertices).all(axis=1)).sum())
+            raise InputError(path, "", f"{bad} vertices are not finite numbers (NaN)")
+        mesh.apply_scale(metres)
+    if len(geometries) == 1:
+        return {"body": next(iter(geometries.values()))}
+    return geometries
+
+
+def _placed(scene: trimesh.Scene) -> dict[str, trimesh.Trimesh]:
+    """Return a scene's geometries in the scene's frame."""
+    placed = {}
+    for node in scene.graph.nodes_geometry:
+        transform, name = scene.graph[node]
+        placed[str(node)] = scene.geometry[name].copy()
+        placed[str(node)].apply_transform(transform)
+    return placed
+
+
+def _check_size(
+    path: str | Path,
+    meshes: dict[str, trimesh.Trimesh],
+    unit: str,
+    scale: float,
+    limits: ImportLimits,
+) -> None:
+    bounds = np.array([mesh.bounds for mesh in meshes.values()])
+    size_m = scale * float((bounds[:, 1].max(axis=0) - bounds[:, 0].min(axis=0)).max())
+    if not limits.min_size_m <= size_m <= limits.max_size_m:
+        fits = [
+            other
+            for other, factor in UNITS_M.items()
+            if limits.min_size_m <= size_m / UNITS_M[unit] * factor <= limits.max_size_m
+        ]
+        advice = f"; unit: {' or '.join(fits)} would fit" if fits else ""
+        raise InputError(
+            path,
+            "unit",
+            f"the object would be {size_m:.4g} m long with unit {unit}, allowed are "
+            f"{limits.min_size_m} to {limits.max_size_m} m{advice}",
+        )
+
+
+def _tidy(mesh: trimesh.Trimesh, repairs: list[str]) -> trimesh.Trimesh:
+    """Merge equal vertices and drop faces without area or that are there twice."""
+    mesh = trimesh.Trimesh(mesh.vertices, mesh.faces, process=True)
+    before = len(mesh.faces)
+    mesh.update_faces(mesh.nondegenerate_faces() & mesh.unique_faces())
+    mesh.remove_unreferenced_vertices()
+    if len(mesh.faces) < before:
+        repairs.append(f"dropped {before - len(mesh.faces)} degenerate or double faces")
+    return mesh
+
+
+def _solid(mesh: trimesh.Trimesh, repairs: list[str]) -> Manifold | None:
+    """Return the union of a mesh's bodies, or None if one of them does not close."""
+    bodies = mesh.split(only_watertight=False)
+    pieces = []
+    for body in bodies:
+        if not body.is_watertight and body.fill_holes():
+            repairs.append("filled small holes")
+        if not body.is_winding_consistent or body.volume < 0:
+            trimesh.repair.fix_normals(body)
+            repairs.append("turned faces outwards")
+        piece = Manifold(
+            Mesh64(
+                np.ascontiguousarray(body.vertices, dtype=np.float64),
+                np.ascontiguousarray(body.faces, dtype=np.uint64),
+            )
+        )
+        if piece.is_empty():
+            return None
+        pieces.append(piece)
+    if len(pieces) > 1:
+        repairs.append(f"joined {len(pieces)} bodies")
+    return solids.union(*pieces)
+
+
+def _rebuild(
+    path: str | Path, mesh: trimesh.Trimesh, limits: ImportLimits, repairs: list[str]
+) -> Manifold:
+    """Rebuild the surface of what a leaky mesh encloses, judged by the winding number."""
+    spacing_m = float(mesh.extents.max()) / limits.rebuild_cells
+    origin_m = mesh.bounds[0] - 3 * spacing_m
+    shape = np.ceil((mesh.bounds[1] - origin_m) / spacing_m).astype(int) + 4
+    nodes = np.ascontiguousarray(np.indices(shape).reshape(3, -1).T * spacing_m + origin_m)
+    vertices = np.ascontiguousarray(mesh.vertices, dtype=np.float64)
+    faces = np.ascontiguousarray(mesh.faces, dtype=np.int64)
+    winding = np.abs(igl.fast_winding_number(vertices, faces, nodes))
+    unsure = int(((winding > 0.25) & (winding < 0.75)).sum())
+    enclosed = int((winding >= 0.75).sum())
+    if unsure > limits.max_open_share * enclosed:
+        raise InputError(
+            path, "", "is an open shell without volume: close its holes or give its walls thickness"
+        )
+    distances = np.sqrt(igl.point_mesh_squared_distance(nodes, vertices, faces)[0])
+    values = np.where(winding > 0.5, -distances, distances)
+    solid = _marched(values.reshape(shape), nodes)
+    repairs.append(f"closed holes by rebuilding the surface at {1e3 * spacing_m:.1f} mm")
+    return solid
+
+
+def _marched(values: NDArray[np.float64], nodes: NDArray[np.float64]) -> Manifold:
+    """Return the solid of negative values (nx, ny, nz) at nodes (nx * ny * nz, 3)."""
+    nx, ny, nz = values.shape
+    # libigl's grids run fastest along x.
+    order = np.arange(nodes.shape[0]).reshape(values.shape).transpose(2, 1, 0).reshape(-1)
+    vertices, faces = igl.marching_cubes(
+        np.ascontiguousarray(values.reshape(-1)[order], dtype=np.float64),
+        np.ascontiguousarray(nodes[order]),
+        nx,
+        ny,
+        nz,
+        0.0,
+    )[:2]
+    solid = solids.from_mesh(vertices, faces)
+    return solid if solid.volume() > 0 else solids.from_mesh(vertices, faces[:, ::-1])
