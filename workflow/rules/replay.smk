@@ -1,0 +1,27 @@
+# The hand put at the published poses: a check of frames, scale and kinematics.
+
+
+def published_data(variable, suffix=""):
+    """The file, or all files with a suffix below the folder, an environment variable names."""
+    named = os.environ.get(variable, "")
+    return sorted(map(str, Path(named).glob(f"*{suffix}"))) if named and suffix else named or []
+
+
+rule replay_grasps:
+    input:
+        published=published_data("GRASPTYPES_PUBLISHED_CSV"),
+        references=published_data("GRASPTYPES_REFERENCE_MESHES", ".stl"),
+    output:
+        # Kept as it is where the data are lacking.
+        table=update("reports/replay.csv"),
+    log:
+        "logs/replay_grasps.log",
+    benchmark:
+        "logs/benchmarks/replay_grasps.tsv"
+    params:
+        settings=config["replay"],
+        code=script_hash("replay_grasps"),
+    message:
+        "Replaying the published hand poses"
+    script:
+        "../scripts/replay_grasps.py"
