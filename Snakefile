@@ -28,9 +28,6 @@ wildcard_constraints:
     task="|".join(TASKS),
 
 
-localrules:
-    all,
-
 
 rule all:
     default_target: True
