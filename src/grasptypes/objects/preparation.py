@@ -68,7 +68,8 @@ def prepare(
         resolution.collision_tolerance_m,
         resolution.collision_max_vertices,
     )
-    outline = solids.to_mesh(joined(parts).simplify(resolution.surface_tolerance_m))
+    # A twentieth of the spacing is lost between the nodes anyway.
+    outline = solids.to_mesh(joined(parts).simplify(resolution.grid_spacing_m / 20))
     grid = DistanceGrid.from_mesh(*outline, resolution.grid_spacing_m, resolution.grid_margin_m)
     object_files.write_surface(folder / object_files.SURFACE, surface)
     object_files.write_properties(folder / object_files.PROPERTIES, properties)

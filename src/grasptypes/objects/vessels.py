@@ -198,12 +198,14 @@ def wine_glass(size: WineGlass = WineGlass()) -> ObjectModel:
     ]
     rim_m = curve[-1, 1]
     hollow[-1, 1] = rim_m
-    outer = sections.chain([(0.0, curve[0, 1])], curve)
+    # The bowl's root reaches into the stem, as solids that only touch may stay apart.
+    root_m = size.cavity_height_m - size.stem_radius_m
+    outer = sections.chain([(0.0, root_m), (0.98 * size.stem_radius_m, root_m)], curve)
     inner = sections.chain(
         [(0.0, size.cavity_height_m), (size.cavity_floor_radius_m, size.cavity_height_m)], hollow
     )
     inner = inner[inner[:, 1] <= rim_m]
-    stem_m = size.cavity_height_m - size.bottom_height_m
+    stem_m = size.cavity_height_m - size.bottom_height_m - 0.001
     parts = (
         Part("bowl", solids.revolve(sections.wall_profile(outer, inner)), CLEAR_GLASS),
         Part(

@@ -1,0 +1,48 @@
+"""Collision hulls are convex, bounded in number and leave openings open."""
+
+import numpy as np
+import pytest
+
+from grasptypes.objects import collision, solids, vessels
+
+LIMITS = {"max_parts": 64, "max_gap_m": 3e-4, "tolerance_m": 4e-4, "max_vertices": 160}
+
+
+@pytest.fixture(scope="module")
+def mug_hulls():
+    return collision.convex_parts([part.solid for part in vessels.mug().parts], **LIMITS)
+
+
+def test_hulls_are_convex_few_and_light(mug_hulls):
+    assert len(mug_hulls) <= 64
+    for hull in mug_hulls:
+        assert hull.hull().volume() == pytest.approx(hull.volume(), rel=1e-6)
+        assert hull.num_vert() <= 160
+
+
+def test_fingers_fit_through_the_handle_and_into_the_mug(mug_hulls):
+    finger = solids.cylinder(0.009, 0.06, axis="y").translate((0.0485, 0, 0.0047))
+    hand = solids.cylinder(0.032, 0.05).translate((-0.0036, 0, 0.02))
+    for hull in mug_hulls:
+        assert (hull ^ finger).is_empty()
+        assert (hull ^ hand).is_empty()
+
+
+def test_hulls_cover_the_mug(mug_hulls):
+    mug = solids.union(*(part.solid for part in vessels.mug().parts))
+    missing = mug - solids.union(*mug_hulls)
+    assert missing.volume() < 0.05 * mug.volume()
+
+
+def test_convex_solid_stays_whole():
+    hulls = collision.convex_parts([solids.box((0.05, 0.04, 0.03))], **LIMITS)
+    assert len(hulls) == 1
+    assert hulls[0].volume() == pytest.approx(0.05 * 0.04 * 0.03)
+
+
+def test_round_hulls_are_lightened_evenly():
+    ball = solids.sphere(0.04, 128)
+    (hull,) = collision.convex_parts([ball], **LIMITS)
+    assert hull.num_vert() <= 160
+    assert hull.volume() == pytest.approx(ball.volume(), rel=0.06)
+    assert np.abs(hull.bounding_box()) == pytest.approx(np.full(6, 0.04), abs=1e-3)

@@ -1,0 +1,47 @@
+"""Contact maps are read as ContactDB publishes them; other files are refused."""
+
+import numpy as np
+import pytest
+import trimesh
+from PIL import Image
+
+from grasptypes.errors import InputError
+from grasptypes.objects.contact_scan import read_contact_scan
+
+
+@pytest.fixture
+def ball():
+    return trimesh.creation.icosphere(subdivisions=2, radius=0.04)
+
+
+def test_red_is_the_intensity_and_zero_unseen(ball, tmp_path):
+    red = np.arange(len(ball.vertices)) % 256
+    colours = np.column_stack([red, 0 * red, 0 * red, 0 * red + 255]).astype(np.uint8)
+    ball.visual.vertex_colors = colours
+    ball.export(tmp_path / "map.ply")
+    scan = read_contact_scan(tmp_path / "map.ply")
+    assert scan.points_m == pytest.approx(ball.vertices, abs=1e-6)
+    assert np.array_equal(np.isnan(scan.intensity), red == 0)
+    assert np.nanmax(scan.intensity) == pytest.approx(red.max() / 255)
+
+
+def test_nothing_seen_is_refused(ball, tmp_path):
+    ball.visual.vertex_colors = np.full((len(ball.vertices), 4), (0, 200, 200, 255), np.uint8)
+    ball.export(tmp_path / "blind.ply")
+    with pytest.raises(InputError, match="nothing was seen"):
+        read_contact_scan(tmp_path / "blind.ply")
+
+
+def test_texture_or_no_colour_is_refused(ball, tmp_path):
+    ball.export(tmp_path / "plain.ply")
+    with pytest.raises(InputError, match="no colour a vertex"):
+        read_contact_scan(tmp_path / "plain.ply")
+    ball.visual = trimesh.visual.TextureVisuals(
+        uv=np.zeros((len(ball.vertices), 2)), image=Image.new("RGB", (4, 4))
+    )
+    ball.export(tmp_path / "texture.ply")
+    with pytest.raises(InputError, match="texture"):
+        read_contact_scan(tmp_path / "texture.ply")
+    (tmp_path / "thermal.png").write_bytes(b"")
+    with pytest.raises(InputError, match="PLY"):
+        read_contact_scan(tmp_path / "thermal.png")

@@ -1,0 +1,113 @@
+"""A user's mesh is read, mended, or refused in one line that says why."""
+
+import os
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+import trimesh
+
+from grasptypes.errors import InputError
+from grasptypes.objects.mesh_import import ImportLimits, import_model
+
+LIMITS = ImportLimits(min_size_m=0.01, max_size_m=1.5, rebuild_cells=64, max_open_share=0.2)
+
+
+def ball(radius=0.04):
+    return trimesh.creation.icosphere(subdivisions=3, radius=radius)
+
+
+def own(path, unit="m", **keywords):
+    return {"file": str(path), "unit": unit, "density_kg_m3": 1000.0, **keywords}
+
+
+def refusal(path, unit="m"):
+    with pytest.raises(InputError) as caught:
+        import_model(own(path, unit), LIMITS)
+    assert str(path) in str(caught.value)
+    assert "\n" not in str(caught.value)
+    return str(caught.value)
+
+
+@pytest.mark.parametrize("suffix", ["stl", "obj", "ply", "glb"])
+def test_formats_and_units(tmp_path, suffix):
+    path = tmp_path / f"ball.{suffix}"
+    ball(40.0).export(path)
+    imported = import_model(own(path, "mm", scale=2.0), LIMITS)
+    assert imported.model.parts[0].solid.volume() == pytest.approx(ball().volume, rel=1e-3)
+    assert imported.scale == 2.0
+    assert imported.repairs == ()
+
+
+def test_named_geometries_become_parts(tmp_path):
+    scene = trimesh.Scene()
+    scene.add_geometry(trimesh.creation.box((0.05,) * 3), node_name="head", geom_name="head")
+    scene.add_geometry(
+        trimesh.creation.box((0.01, 0.01, 0.1)), node_name="handle", geom_name="handle"
+    )
+    scene.export(tmp_path / "tool.glb")
+    parts = import_model(own(tmp_path / "tool.glb"), LIMITS).model.parts
+    assert {part.name for part in parts} == {"head", "handle"}
+
+
+def test_holes_are_closed_and_it_says_so(tmp_path):
+    mesh = ball()
+    trimesh.Trimesh(mesh.vertices, mesh.faces[12:]).export(tmp_path / "holed.stl")
+    imported = import_model(own(tmp_path / "holed.stl"), LIMITS)
+    assert imported.model.parts[0].solid.volume() == pytest.approx(mesh.volume, rel=0.01)
+    assert "closed holes" in " ".join(imported.repairs)
+
+
+def test_inside_out_is_turned(tmp_path):
+    mesh = ball()
+    trimesh.Trimesh(mesh.vertices, mesh.faces[:, ::-1]).export(tmp_path / "turned.ply")
+    imported = import_model(own(tmp_path / "turned.ply"), LIMITS)
+    assert imported.model.parts[0].solid.volume() == pytest.approx(mesh.volume)
+    assert imported.repairs == ("turned faces outwards",)
+
+
+def test_wrong_unit_names_the_right_one(tmp_path):
+    ball(40.0).export(tmp_path / "ball.stl")
+    assert "mm would fit" in refusal(tmp_path / "ball.stl")
+
+
+def test_open_shell_is_refused(tmp_path):
+    mesh = ball()
+    half = trimesh.Trimesh(mesh.vertices, mesh.faces[mesh.triangles_center[:, 2] < 0])
+    half.export(tmp_path / "half.stl")
+    assert "open shell" in refusal(tmp_path / "half.stl")
+
+
+def test_nan_vertices_are_refused(tmp_path):
+    lines = [f"v {x} {y} {z}" for x, y, z in ball().vertices]
+    lines[3] = "v nan 0 0"
+    lines += [f"f {a} {b} {c}" for a, b, c in ball().faces + 1]
+    (tmp_path / "nan.obj").write_text("\n".join(lines))
+    assert "NaN" in refusal(tmp_path / "nan.obj")
+
+
+def test_files_without_faces_are_refused(tmp_path):
+    (tmp_path / "points.obj").write_text("v 0 0 0\nv 0.1 0 0\n")
+    trimesh.PointCloud(ball().vertices).export(tmp_path / "cloud.ply")
+    (tmp_path / "text.stl").write_text("hello")
+    (tmp_path / "empty.glb").write_text("")
+    (tmp_path / "part.step").write_text("x")
+    assert "no faces" in refusal(tmp_path / "points.obj")
+    assert "no faces" in refusal(tmp_path / "cloud.ply")
+    refusal(tmp_path / "text.stl")
+    refusal(tmp_path / "empty.glb")
+    assert ".stl" in refusal(tmp_path / "part.step")
+    assert "no such file" in refusal(tmp_path / "gone.stl")
+
+
+@pytest.mark.skipif(
+    "GRASPTYPES_REFERENCE_MESHES" not in os.environ, reason="GRASPTYPES_REFERENCE_MESHES not set"
+)
+@pytest.mark.parametrize("name", ["mug", "mouse", "flashlight", "pan"])
+def test_real_scans_come_through(name):
+    path = Path(os.environ["GRASPTYPES_REFERENCE_MESHES"]) / f"{name}.stl"
+    solid = import_model(own(path), replace(LIMITS, rebuild_cells=128)).model.parts[0].solid
+    extent = np.ptp(np.reshape(solid.bounding_box(), (2, 3)), axis=0)
+    assert extent == pytest.approx(trimesh.load_mesh(path).extents, abs=0.003)
+    assert solid.volume() == pytest.approx(trimesh.load_mesh(path).volume, rel=0.1)

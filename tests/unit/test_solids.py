@@ -1,0 +1,66 @@
+"""The solids have the volumes, bounds and orientation that geometry asks of them."""
+
+import numpy as np
+import pytest
+
+from grasptypes.objects import sections, solids
+
+
+def test_revolved_rectangle_is_a_cylinder():
+    solid = solids.revolve([(0, 0), (0.03, 0), (0.03, 0.1), (0, 0.1)], segments=256)
+    assert solid.volume() == pytest.approx(np.pi * 0.03**2 * 0.1, rel=1e-3)
+
+
+@pytest.mark.parametrize(("axis", "index"), [("x", 0), ("y", 1), ("z", 2)])
+def test_extrusion_runs_along_its_axis(axis, index):
+    extent = np.reshape(solids.extrude(sections.circle(0.01), 0.1, axis).bounding_box(), (2, 3))
+    assert np.argmax(extent[1] - extent[0]) == index
+    assert extent[:, index] == pytest.approx([-0.05, 0.05])
+
+
+def test_minus_axis_turns_the_other_way():
+    arrow = solids.cylinder(0.01, 0.1, top_radius_m=0.0).translate((0, 0, 0.05))
+    assert solids.along(arrow, "-x").bounding_box()[0] == pytest.approx(-0.1)
+
+
+def test_straight_sweep_is_a_prism():
+    section = sections.superellipse(0.01, 0.02, samples=256)
+    swept = solids.sweep([(0, 0, 0), (0.05, 0, 0), (0.1, 0, 0)], section)
+    assert swept.volume() == pytest.approx(np.pi * 0.01 * 0.02 * 0.1, rel=1e-3)
+    assert np.ptp(np.reshape(swept.bounding_box(), (2, 3)), axis=0) == pytest.approx(
+        [0.1, 0.02, 0.04], rel=1e-3
+    )
+
+
+def test_closed_sweep_is_a_torus():
+    turn = 2 * np.pi * np.arange(128) / 128
+    ring = 0.03 * np.column_stack([np.cos(turn), np.sin(turn), 0 * turn])
+    swept = solids.sweep(ring, sections.circle(0.005, 64), closed=True)
+    assert swept.genus() == 1
+    assert swept.volume() == pytest.approx(2 * np.pi**2 * 0.03 * 0.005**2, rel=5e-3)
+
+
+def test_slabs_join_to_the_whole_again():
+    solid = solids.revolve([(0, 0), (0.03, 0), (0.05, 0.1), (0, 0.1)])
+    slices = solids.slabs(solid, [0.02, 0.07])
+    assert [slab.bounding_box()[2] for slab in slices] == pytest.approx([0.0, 0.02, 0.07])
+    assert solids.union(*slices).volume() == pytest.approx(solid.volume())
+    assert len(solids.union(*slices).decompose()) == 1
+
+
+def test_open_mesh_is_refused():
+    with pytest.raises(ValueError, match="closed"):
+        solids.from_mesh(np.eye(3), [[0, 1, 2]])
+
+
+def test_offset_curve_keeps_its_distance():
+    quarter = sections.arc((0, 0), 0.05, 0, 90, 64)
+    inner = sections.offset_curve(quarter, 0.002)
+    assert np.linalg.norm(inner, axis=1) == pytest.approx(np.full(64, 0.048), abs=1e-5)
+
+
+def test_smooth_curve_passes_its_control_points():
+    control = np.array([(0.0, 0.0), (0.02, 0.05), (0.01, 0.1)])
+    curve = sections.smooth_curve(control, 400)
+    gaps = np.linalg.norm(curve[None] - control[:, None], axis=-1).min(axis=1)
+    assert gaps.max() < 3e-4
