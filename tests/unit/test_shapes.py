@@ -50,7 +50,7 @@ def _overlap(a: str, b: str, angles: np.ndarray) -> np.ndarray:
 
 
 @pytest.mark.parametrize("spread_deg", [0, 45, 90, 180])
-@pytest.mark.parametrize("finger_deg", [0, 60, 110])
+@pytest.mark.parametrize("finger_deg", [0, 60, 140])
 def test_neighbouring_links_only_overlap_in_their_hubs(spread_deg: int, finger_deg: int) -> None:
     angles = kinematics.couple(np.radians([spread_deg, finger_deg, finger_deg, finger_deg]))
     for joint in kinematics.JOINTS:
@@ -69,6 +69,14 @@ def test_other_links_of_an_open_hand_are_apart(spread_deg: int) -> None:
         for b in kinematics.LINK_NAMES:
             if a != b and frozenset((a, b)) not in neighbours:
                 assert len(_overlap(a, b, angles)) == 0, (a, b)
+
+
+@pytest.mark.parametrize("spread_deg", [0, 30, 60, 90, 180])
+def test_inner_links_fold_to_their_limit_beside_the_palm(spread_deg: int) -> None:
+    angles = kinematics.couple(np.radians([spread_deg, 140, 140, 140]))
+    for link in ("proximal_1", "proximal_2"):
+        assert len(_overlap("palm", link, angles)) == 0
+        assert len(_overlap(link, "palm", angles)) == 0
 
 
 def test_surface_points_lie_on_the_surface_with_outward_normals() -> None:

@@ -24,8 +24,10 @@ BODY_SEGMENTS = 32
 
 PALM_RADIUS_M = 0.0445
 PALM_BOTTOM_M = -0.0829
-PALM_PLATE_HALF_LENGTH_M = 0.036
 PALM_PLATE_BOTTOM_M = -0.010
+# Half length of the plate at each height: its ends slope as a finger folded to 140 degrees does.
+PALM_PLATE_ENDS_M = ((0.0, 0.027), (-0.0075, 0.036), (PALM_PLATE_BOTTOM_M, 0.036))
+PALM_CORE_TOP_M = -0.009
 PALM_DRUM_TOP_M = -0.036
 BRACKET_HALF_WIDTH_M = 0.012
 BRACKET_END_M = -0.0644
@@ -78,12 +80,27 @@ def _on_side(points: Array) -> Array:
     return points[:, [0, 2, 1]] * [1.0, -1.0, 1.0]
 
 
+def _plate() -> Array:
+    heights, half_lengths = np.array(PALM_PLATE_ENDS_M).T
+    layers = []
+    for height in sorted({*heights, heights[0] - EDGE_M}):
+        radius = PALM_RADIUS_M - (EDGE_M if height == heights[0] else 0.0)
+        half = np.interp(-height, -heights, half_lengths)
+        body = manifold3d.CrossSection([circle(0, 0, radius, BODY_SEGMENTS)])
+        cut = body ^ manifold3d.CrossSection.square((1.0, 2 * half), True)
+        corners = cut.to_polygons()[0]
+        layers.append(np.column_stack([corners, np.full(len(corners), height)]))
+    return np.concatenate(layers)
+
+
 def _palm() -> dict[str, Array]:
-    body = circle(0, 0, PALM_RADIUS_M, BODY_SEGMENTS)
-    half = PALM_PLATE_HALF_LENGTH_M
-    plate = manifold3d.CrossSection([body]) ^ manifold3d.CrossSection.square((1.0, 2 * half), True)
+    drum = prism(circle(0, 0, PALM_RADIUS_M, BODY_SEGMENTS), PALM_BOTTOM_M, PALM_DRUM_TOP_M)
     width, z = BRACKET_HALF_WIDTH_M, kinematics.BASE_DEPTH_M
-    core = outline([[x, y] for x in (-width, width) for y in (-PALM_RADIUS_M, PALM_RADIUS_M)])
+    low, half = PALM_DRUM_TOP_M - 0.004, PALM_PLATE_ENDS_M[-1][1]
+    core = outline(
+        [[side * PALM_RADIUS_M, height] for side in (-1, 1) for height in (low, -0.016)],
+        [[-half, PALM_CORE_TOP_M], [half, PALM_CORE_TOP_M]],
+    )
     hub = circle(-kinematics.KNUCKLE_LENGTH_M, z, BRACKET_HUB_RADIUS_M, HUB_SEGMENTS)
     foot = outline(
         [[BRACKET_END_M, -0.045], [BRACKET_END_M, z - 0.0185], [-0.050, z - 0.0145]],
@@ -91,9 +108,9 @@ def _palm() -> dict[str, Array]:
     )
     sideways = [2, 0, 1]  # a (y, z) profile extruded along x
     return {
-        "drum": prism(body, PALM_BOTTOM_M, PALM_DRUM_TOP_M),
-        "core": prism(core, PALM_DRUM_TOP_M - 0.004, PALM_PLATE_BOTTOM_M + 0.004),
-        "plate": prism(plate.to_polygons()[0], PALM_PLATE_BOTTOM_M, 0.0),
+        "drum": drum,
+        "core": prism(core, -width, width)[:, sideways],
+        "plate": _plate(),
         "bracket": prism(hub, -width, width)[:, sideways],
         "bracket_foot": prism(foot, -width, width)[:, sideways],
     }
