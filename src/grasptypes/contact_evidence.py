@@ -6,7 +6,9 @@ contact. The object's parts, and how far along the object the contact lies, come
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any, NamedTuple
 
 import numpy as np
 import pandas as pd
@@ -17,7 +19,8 @@ from scipy.spatial import cKDTree
 
 from grasptypes.affinities import SIDES
 from grasptypes.hand import configuration, kinematics, shapes
-from grasptypes.replay import signed_distance
+from grasptypes.object_files import Surface
+from grasptypes.replay import read_reference_mesh, signed_distance
 
 Array = NDArray[np.float64]
 
@@ -52,12 +55,66 @@ EVIDENCE_SCHEMA = pa.DataFrameSchema(
 )
 
 
+SUMMARY_SCHEMA = pa.DataFrameSchema(
+    {
+        "object": pa.Column(str),
+        "task": pa.Column(str),
+        "grip": pa.Column(str),
+        "palm_side": pa.Column(str, pa.Check.isin(SIDES)),
+        "axis": pa.Column(str, pa.Check.isin(["x", "y", "z"])),
+        "n": pa.Column(int, pa.Check.ge(1)),
+        "share": pa.Column(float, pa.Check.in_range(0, 1)),
+        "palm_touches": pa.Column(float, pa.Check.in_range(0, 1)),
+        "palm_gap_mm": pa.Column(float, pa.Check.ge(0)),
+        "contact_x": pa.Column(float, pa.Check.in_range(0, 1)),
+        "contact_y": pa.Column(float, pa.Check.in_range(0, 1)),
+        "contact_z": pa.Column(float, pa.Check.in_range(0, 1)),
+        "spread_deg": pa.Column(float),
+        "part": pa.Column(str),
+    },
+    strict=True,
+    ordered=True,
+)
+
+# Objects whose poses are published, by what is held of them. The grips of a class are the general
+# pattern for objects without poses.
+CLASSES = {
+    "vessels": ("bowl", "mug", "utah_teapot", "water_bottle", "wine_glass"),
+    "compact": ("apple", "banana", "cell_phone", "stapler"),
+    "handles": ("flashlight", "hammer", "scissors", "toothbrush"),
+}
+# A palm this near carries: power grasps lie at a median of 1 to 8 mm, precision grasps at 55 to 59.
+PALM_CARRIES_MM = 15.0
+
+
 class PartPoints(NamedTuple):
     """Points (N, 3) on our object, metres, with part indices (N,) and the parts' names."""
 
     points_m: Array
     part_index: NDArray[np.int16]
     part_names: list[str]
+
+
+def object_evidence(
+    grasps: pd.DataFrame, surface: Surface, scan: Path, scale: float, params: Mapping[str, Any]
+) -> list[dict[str, str | int | float]]:
+    """Evidence of all published grasps of one object.
+
+    Args:
+        grasps: rows of `published.read_published` with a configuration and a valid label.
+        surface: our model, in metres at the grasped scale.
+        scan: mesh of the real object at scale 1; where there is none, our model takes its place.
+        params: the `contact_evidence` section of params.yaml.
+    """
+    mesh = trimesh.Trimesh(surface.vertices, surface.faces, process=False)
+    ours_m = np.asarray(surface.vertices) - _standing_origin(mesh)
+    mesh.apply_translation(-_standing_origin(mesh))
+    if scan.is_file():
+        mesh = read_reference_mesh(scan, scale)
+    names = [str(part) for part in surface.part_names]
+    ours = PartPoints(ours_m, surface.part_index, names)
+    lengths = params["hand_spacing_m"], params["touch_m"]
+    return [session_evidence(grasp, mesh, ours, *lengths) for _, grasp in grasps.iterrows()]
 
 
 def session_evidence(
@@ -109,15 +166,41 @@ def summarise(evidence: pd.DataFrame) -> pd.DataFrame:
     groups = evidence.groupby(keys, sort=True)
     table = groups.agg(
         n=("session", "size"),
+        palm_touches=("palm_gap_mm", lambda gap: (gap < PALM_CARRIES_MM).mean()),
         palm_gap_mm=("palm_gap_mm", "median"),
         contact_x=("contact_x", "median"),
         contact_y=("contact_y", "median"),
         contact_z=("contact_z", "median"),
+        spread_deg=("spread_deg", "median"),
         part=("part", lambda parts: parts.value_counts().index[0]),
     )
     share = table.n / table.groupby(["object", "task"]).n.transform("sum")
     table.insert(1, "share", share.round(3))
     return table.round(3).reset_index()
+
+
+def pattern(grasps: pd.DataFrame) -> pd.DataFrame:
+    """Share of each grip by class of object and task, among the published grasps with poses.
+
+    Args:
+        grasps: the table of `published.read_published`.
+
+    Returns:
+        class, task, grip, n, share: the general pattern that objects without poses follow.
+    """
+    class_of = {name: kind for kind, names in CLASSES.items() for name in names}
+    labelled = grasps.assign(
+        **{"class": grasps.object.map(class_of), "grip": grasps.grasp_type.map(GRIP_OF_TYPE)}
+    ).dropna(subset=["class", "grip"])
+    table = labelled.groupby(["class", "task", "grip"], sort=True).size().rename("n").reset_index()
+    share = table.n / table.groupby(["class", "task"]).n.transform("sum")
+    return table.assign(share=share.round(3))
+
+
+def _standing_origin(mesh: trimesh.Trimesh) -> Array:
+    """Origin (3,) of the published poses' frame: below the middle of the object, on the ground."""
+    low, high = mesh.bounds
+    return np.array([*(low[:2] + high[:2]) / 2, low[2]])
 
 
 def _nearest_side(direction: Array) -> tuple[str, float]:

@@ -16,13 +16,15 @@ import numpy as np
 import trimesh
 from numpy.typing import ArrayLike, NDArray
 
-from grasptypes.affinities import STYLE_OF_GRIP, Hold
+from grasptypes.affinities import STYLE_OF_GRIP, WHOLE, Hold
 from grasptypes.errors import InputError
 from grasptypes.files import read_npz, write_npz
 from grasptypes.handprint import Hand, Placement, Surface, handprint
 from grasptypes.placement import place_hand
 from grasptypes.seeds import rng, seed
 
+# Within about 70 degrees of the closing direction, a surface resists the digit that presses on it.
+OPPOSED_COSINE = 0.35
 GOLDEN_RATIO = (5**0.5 - 1) / 2
 
 
@@ -109,10 +111,15 @@ def draw_session(
 ) -> Session:
     """One person's way of holding an object.
 
+    A person whose thumb and fingers do not end up on two sides of the object tries again.
+
     Args:
         key: object, task, session and seed: all that the draw depends on beside the parameters.
         params: the `contact_maps` section of params.yaml.
         scale: the object's; the hand grows with it, as ContactGrasp's contact maps do.
+
+    Raises:
+        InputError: nobody can hold the object as the drawn row of the affinity table says.
     """
     draw = rng("contact_map", *key)
     hold = _choose(holds, key)
@@ -123,9 +130,16 @@ def draw_session(
     group = params["people"][int(draw.integers(len(params["people"])))]
     length_m = draw.normal(group["hand_length_m"], group["hand_length_sd_m"])
     hand = Hand.of_length(scale * length_m, params["hand"])
-    placement, height = place_hand(surface, hold, hand, params["placement"], draw)
-    contact = handprint(surface, hold.grip, placement, hand)
-    return Session(hold, placement, height, hand, contact)
+    for _ in range(params["tries"]):
+        placement, height = place_hand(surface, hold, hand, params["placement"], draw)
+        contact = handprint(surface, hold.grip, placement, hand)
+        if _opposes(points.normals[contact >= params["threshold"]], placement.closing):
+            return Session(hold, placement, height, hand, contact)
+    raise InputError(
+        params["affinities"],
+        f"{key[0]}, {key[1]}, {'+'.join(hold.parts) or WHOLE}, {hold.grip} {hold.approach}",
+        f"{params['tries']} people could not hold it so: thumb and fingers found no two sides",
+    )
 
 
 def map_contacts(
@@ -159,7 +173,7 @@ def map_contacts(
         sessions=np.float32([person.contact for person in shown]),
         style=np.array([STYLE_OF_GRIP[grip] for grip in grips]),
         grip=np.array(grips),
-        part=np.array(["+".join(person.hold.parts) or "*" for person in shown]),
+        part=np.array(["+".join(person.hold.parts) or WHOLE for person in shown]),
         approach=np.float32([-person.placement.palm_side for person in shown]),
         closing=np.float32([person.placement.closing for person in shown]),
         centre_m=np.float32([person.placement.centre_m for person in shown]),
@@ -184,6 +198,12 @@ def read_contact_map(path: str | Path) -> ContactMap:
         if field.name not in arrays:
             raise InputError(path, field.name, "is missing; build the contact map anew")
     return ContactMap(**{field.name: arrays[field.name] for field in fields(ContactMap)})
+
+
+def _opposes(normals: NDArray[np.float64], closing: NDArray[np.float64]) -> bool:
+    """Whether touched normals (K, 3) face both ways along the closing direction."""
+    facing = normals @ closing
+    return bool((facing > OPPOSED_COSINE).any() and (facing < -OPPOSED_COSINE).any())
 
 
 def _choose(holds: Sequence[Hold], key: tuple[str, str, int, int]) -> Hold:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import fields
 from typing import Any
 
 import numpy as np
@@ -19,6 +20,13 @@ from grasptypes.scene import Part
 Array = NDArray[np.float64]
 
 LEVELS = 24
+
+
+def studio_of(renders: Mapping[str, Any], size_px: int) -> Studio:
+    """The studio of the `renders` section for plain pictures: own colours, no shadow."""
+    shared = {field.name: renders[field.name] for field in fields(Studio)}
+    plain = {"size_px": size_px, "colour_randomisation": 0.0, "shadow_strength": 0.0}
+    return Studio(**{**shared, **plain})
 
 
 def contact_picture(

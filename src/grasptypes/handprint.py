@@ -12,7 +12,8 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial import ConvexHull, cKDTree
+
+from grasptypes.outline import along_outline, convex_outline
 
 Array = NDArray[np.float64]
 
@@ -86,8 +87,6 @@ class Surface:
 # Directions of thumb and fingers around the approach of a spread hand, degrees from the closing.
 SPREAD_FINGERS_DEG = (-60.0, -20.0, 20.0, 60.0)
 THUMB_DEG = 180.0
-# Step along a digit's outline: far below the breadth of a finger.
-OUTLINE_STEP_M = 0.001
 
 
 def handprint(surface: Surface, grip: str, placement: Placement, hand: Hand) -> Array:
@@ -215,11 +214,11 @@ def _trace(
     plane = np.column_stack([offset @ direction, offset @ place.palm_side])
     cut = surface.mask & (np.abs(aside_m) < hand.finger_half_width_m)
     contact = np.zeros(len(offset))
-    outline = _outline(plane[cut])
+    outline = convex_outline(plane[cut])
     if outline is None:
         return contact
     near = np.flatnonzero(surface.mask & (np.abs(aside_m) < 1.5 * width_m))
-    place_m, distance_m, normal = _along(outline, plane[near])
+    place_m, distance_m, normal = along_outline(outline, plane[near])
     facing = surface.normals[near] @ np.column_stack([direction, place.palm_side])
     contact[near] = (
         _plateau(aside_m[near] / width_m)
@@ -228,46 +227,6 @@ def _trace(
         * _facing(np.sum(facing * normal, axis=1))
     )
     return contact
-
-
-def _outline(cut: Array) -> Array | None:
-    """Convex outline (K, 2) of a cut, from above its centre clockwise and closed; None if too thin.
-
-    Clockwise is towards the digit's direction (+x) from the palm (+y).
-    """
-    if len(cut) < 8 or np.ptp(cut, axis=0).min() < 1e-3:
-        return None
-    corners = cut[ConvexHull(cut).vertices[::-1]]
-    middle = (corners.min(axis=0) + corners.max(axis=0)) / 2
-    inside = corners[:, 0].min() < 0.0 < corners[:, 0].max()
-    x0 = 0.0 if inside else middle[0]
-    following = np.roll(corners, -1, axis=0)
-    crossing = np.flatnonzero((corners[:, 0] <= x0) & (following[:, 0] > x0))
-    if len(crossing) == 0:
-        return None
-    edge = int(crossing[np.argmax(corners[crossing, 1])])
-    before, after = corners[edge], following[edge]
-    share = (x0 - before[0]) / (after[0] - before[0])
-    start = before + share * (after - before)
-    ring = np.roll(corners, -(edge + 1), axis=0)
-    return np.vstack([start, ring, start])
-
-
-def _along(outline: Array, points: Array) -> tuple[Array, Array, Array]:
-    """Arc length (N,), distance (N,) and outward normal (N, 2) of the outline nearest to points.
-
-    The outline is taken as a chain of points `OUTLINE_STEP_M` apart, as fine as skin can feel.
-    """
-    step = np.diff(outline, axis=0)
-    length = np.linalg.norm(step, axis=1)
-    bounds = np.concatenate([[0.0], np.cumsum(length)])
-    arc = np.arange(0.0, bounds[-1], OUTLINE_STEP_M)
-    edge = np.searchsorted(bounds, arc, side="right") - 1
-    tangent = step[edge] / length[edge, None]
-    chain = outline[edge] + (arc - bounds[edge])[:, None] * tangent
-    distance, nearest = cKDTree(chain).query(points)
-    normals = np.column_stack([-tangent[:, 1], tangent[:, 0]])
-    return arc[nearest], distance, normals[nearest]
 
 
 def _plateau(ratio: Array) -> Array:

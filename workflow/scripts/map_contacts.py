@@ -1,16 +1,13 @@
 """Map where people touch an object for a task; one job an object and task."""
 
-from __future__ import annotations
-
-import json
 from collections.abc import Collection, Mapping
 from pathlib import Path
 from typing import Any
 
 from grasptypes.affinities import holds_of, read_affinities
 from grasptypes.contact_map import map_contacts, sample_surface, write_contact_map
-from grasptypes.files import read_npz
 from grasptypes.jobs import job
+from grasptypes.object_files import read_properties, read_surface
 from grasptypes.seeds import seed
 
 
@@ -26,15 +23,15 @@ def write_map(
     params: Mapping[str, Any],
 ) -> None:
     """Draw the sessions of `name` (object, task) and write their contact maps to `target`."""
-    mesh = read_npz(surface)
-    scale = json.loads(Path(properties).read_text(encoding="utf-8"))["scale"]
-    part_names = [str(part) for part in mesh["part_names"]]
+    mesh = read_surface(surface)
+    scale = read_properties(properties)["scale"]
+    part_names = [str(part) for part in mesh.part_names]
     table = read_affinities(affinities, objects, tasks)
     holds = holds_of(table, *name, part_names, affinities)
     points = sample_surface(
-        mesh["vertices"],
-        mesh["faces"],
-        mesh["part_index"],
+        mesh.vertices,
+        mesh.faces,
+        mesh.part_index,
         params["points"],
         seed("surface", name[0], seed_number) % 2**31,
     )
@@ -43,15 +40,15 @@ def write_map(
 
 
 if __name__ == "__main__":
-    with job(snakemake.log):  # noqa: F821
+    with job(snakemake.log):
         write_map(
-            snakemake.input.surface,  # noqa: F821
-            snakemake.input.properties,  # noqa: F821
-            snakemake.input.affinities,  # noqa: F821
-            snakemake.output.contact_map,  # noqa: F821
-            (snakemake.wildcards.object, snakemake.wildcards.task),  # noqa: F821
-            snakemake.params.objects,  # noqa: F821
-            snakemake.params.tasks,  # noqa: F821
-            snakemake.params.seed,  # noqa: F821
-            snakemake.params.settings,  # noqa: F821
+            snakemake.input.surface,
+            snakemake.input.properties,
+            snakemake.input.affinities,
+            snakemake.output.contact_map,
+            (snakemake.wildcards.object, snakemake.wildcards.task),
+            snakemake.params.objects,
+            snakemake.params.tasks,
+            snakemake.params.seed,
+            snakemake.params.settings,
         )

@@ -1,0 +1,59 @@
+"""Derive where the published grasps hold the objects: the evidence behind assets/affinities.csv."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import pandas as pd
+
+from grasptypes.contact_evidence import (
+    EVIDENCE_SCHEMA,
+    SUMMARY_SCHEMA,
+    object_evidence,
+    pattern,
+    summarise,
+)
+from grasptypes.jobs import job
+from grasptypes.object_files import read_surface
+from grasptypes.published import read_published
+from grasptypes.tables import write_table
+
+
+def derive_affinities(
+    published: str | Path,
+    meshes: str | Path,
+    surfaces: Mapping[str, str],
+    targets: tuple[str | Path, str | Path, str | Path],
+    scale: float,
+    params: Mapping[str, Any],
+) -> None:
+    """Write one row a published grasp, their summary by hold, and the shares of grips by class."""
+    grasps = read_published(published)
+    known = grasps[grasps.hand_configuration.notna() & (grasps.grasp_type != "Invalid")]
+    rows = []
+    for name, group in known.groupby("object", sort=True):
+        if name in surfaces:
+            scan = Path(meshes) / f"{name}.stl"
+            rows += object_evidence(group, read_surface(surfaces[name]), scan, scale, params)
+    evidence = pd.DataFrame(rows)
+    write_table(evidence, targets[0], EVIDENCE_SCHEMA)
+    write_table(summarise(evidence), targets[1], SUMMARY_SCHEMA)
+    pattern(grasps).to_csv(targets[2], index=False, lineterminator="\n")
+
+
+if __name__ == "__main__":
+    with job(snakemake.log):
+        derive_affinities(
+            snakemake.params.published,
+            snakemake.params.meshes,
+            dict(zip(snakemake.params.objects, snakemake.input.surfaces, strict=True)),
+            (
+                snakemake.output.evidence,
+                snakemake.output.summary,
+                snakemake.output.pattern,
+            ),
+            snakemake.params.scale,
+            snakemake.params.settings,
+        )

@@ -1,0 +1,49 @@
+"""Draw the population's contact maps of all objects and tasks, and one sheet of them all."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from grasptypes.contact_map import read_contact_map
+from grasptypes.contact_pictures import contact_picture, contact_sheet, studio_of
+from grasptypes.files import write_bytes
+from grasptypes.jobs import job
+from grasptypes.object_files import read_surface
+from grasptypes.renderer import Camera, png_bytes
+
+
+def plot_contact_maps(
+    maps: Mapping[tuple[str, str], str],
+    surfaces: Mapping[str, str],
+    targets: Mapping[tuple[str, str], str],
+    sheet: str | Path,
+    renders: Mapping[str, Any],
+    params: Mapping[str, Any],
+) -> None:
+    """Draw each map of (object, task) to its target, and all of them small to `sheet`."""
+    pictures = {}
+    studio = studio_of(renders, params["size_px"])
+    with Camera(studio) as camera:
+        for (name, task), path in maps.items():
+            surface, contact = read_surface(surfaces[name]), read_contact_map(path)
+            mesh = surface.vertices, surface.faces
+            picture = contact_picture(contact, contact.probability, *mesh, camera, params)
+            write_bytes(targets[name, task], png_bytes(picture, studio.png_compression))
+            pictures[f"{name}, {task}"] = picture
+    whole = contact_sheet(pictures, params["columns"], params["tile_px"])
+    write_bytes(sheet, png_bytes(whole, studio.png_compression))
+
+
+if __name__ == "__main__":
+    with job(snakemake.log):
+        names = [tuple(name) for name in snakemake.params.names]
+        plot_contact_maps(
+            dict(zip(names, snakemake.input.contact_maps, strict=True)),
+            dict(zip(snakemake.params.objects, snakemake.input.surfaces, strict=True)),
+            dict(zip(names, snakemake.output.pictures, strict=True)),
+            snakemake.output.sheet,
+            snakemake.params.renders,
+            snakemake.params.settings,
+        )
