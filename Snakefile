@@ -21,6 +21,7 @@ configfile: "params.yaml"
 
 include: "workflow/rules/common.smk"
 include: "workflow/rules/objects.smk"
+include: "workflow/rules/replay.smk"
 
 
 wildcard_constraints:
