@@ -14,13 +14,14 @@ import numpy as np
 import pandas as pd
 import pandera.pandas as pa
 import trimesh
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 from grasptypes.affinities import SIDES
+from grasptypes.distance_grid import signed_distance
 from grasptypes.hand import configuration, kinematics, shapes
 from grasptypes.object_files import Surface
-from grasptypes.replay import read_reference_mesh, signed_distance
+from grasptypes.replay import read_reference_mesh
 
 Array = NDArray[np.float64]
 
@@ -134,7 +135,7 @@ def session_evidence(
     surface = shapes.surface_points(spacing_m)
     T = poses[surface.link_index]
     points = np.einsum("pij,pj->pi", T[:, :3, :3], surface.points_m) + T[:, :3, 3]
-    distance_m = signed_distance(points, mesh)
+    distance_m = signed_distance(points, mesh.vertices, mesh.faces)
     # A pose that touches nothing is judged by what it comes closest to.
     touching = distance_m < max(touch_m, distance_m.min() + touch_m / 2)
     _, nearest = cKDTree(ours.points_m).query(points[touching])
@@ -214,7 +215,7 @@ def _relative(points: Array, body: Array) -> Array:
     return np.clip((points.mean(axis=0) - low) / (high - low), 0.0, 1.0)
 
 
-def _touched_parts(ours: PartPoints, nearest: ArrayLike) -> str:
+def _touched_parts(ours: PartPoints, nearest: NDArray[np.int64]) -> str:
     """Names of the parts with at least a fifth of the contact, the most touched first."""
     counts = np.bincount(ours.part_index[nearest], minlength=len(ours.part_names))
     order = np.argsort(-counts, kind="stable")

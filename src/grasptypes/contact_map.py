@@ -170,16 +170,20 @@ def map_contacts(
         part_index=points.part_index,
         part_names=np.array(part_names, dtype=np.str_),
         probability=np.mean([person.contact for person in people], axis=0).astype(np.float32),
-        sessions=np.float32([person.contact for person in shown]),
+        sessions=_single([person.contact for person in shown]),
         style=np.array([STYLE_OF_GRIP[grip] for grip in grips]),
         grip=np.array(grips),
         part=np.array(["+".join(person.hold.parts) or WHOLE for person in shown]),
         approach=np.float32([-person.placement.palm_side for person in shown]),
-        closing=np.float32([person.placement.closing for person in shown]),
-        centre_m=np.float32([person.placement.centre_m for person in shown]),
-        height=np.float32([person.height for person in shown]),
-        hand_length_m=np.float32([person.hand.length_m for person in shown]),
+        closing=_single([person.placement.closing for person in shown]),
+        centre_m=_single([person.placement.centre_m for person in shown]),
+        height=_single([person.height for person in shown]),
+        hand_length_m=_single([person.hand.length_m for person in shown]),
     )
+
+
+def _single(values: ArrayLike) -> NDArray[np.float32]:
+    return np.asarray(values, dtype=np.float32)
 
 
 def write_contact_map(contact_map: ContactMap, path: str | Path) -> None:

@@ -102,8 +102,8 @@ def _coloured_parts(
     contact_map: ContactMap, contact: Array, vertices: ArrayLike, faces: ArrayLike, edge_m: float
 ) -> list[Part]:
     """The mesh cut into pieces of nearly the same contact, each with its colour."""
-    fine = trimesh.remesh.subdivide_to_size(vertices, faces, edge_m, max_iter=20)
-    mesh = trimesh.Trimesh(*fine, process=False)
+    fine, triangles = trimesh.remesh.subdivide_to_size(vertices, faces, edge_m, max_iter=20)[:2]
+    mesh = trimesh.Trimesh(fine, triangles, process=False)
     centres, normals = mesh.triangles_center, mesh.face_normals
     # Points of the other side of a thin wall lie as near: they must face the same way to count.
     weight_m = 0.01
