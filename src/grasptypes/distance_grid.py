@@ -43,15 +43,7 @@ class DistanceGrid:
         origin_m = points_m.min(axis=0) - margin_m
         shape = np.ceil((points_m.max(axis=0) + margin_m - origin_m) / spacing_m).astype(int) + 1
         nodes = np.indices(shape).reshape(3, -1).T * spacing_m + origin_m
-        closed = (
-            bool(igl.is_edge_manifold(triangles)) and len(igl.boundary_facets(triangles)[0]) == 0
-        )
-        sign = (
-            igl.SIGNED_DISTANCE_TYPE_PSEUDONORMAL
-            if closed
-            else igl.SIGNED_DISTANCE_TYPE_FAST_WINDING_NUMBER
-        )
-        distances = igl.signed_distance(np.ascontiguousarray(nodes), points_m, triangles, sign)[0]
+        distances = signed_distance(nodes, points_m, triangles)
         return cls(distances.reshape(shape).astype(np.float32), origin_m, float(spacing_m))
 
     @classmethod
@@ -108,6 +100,25 @@ class DistanceGrid:
         steps = np.indices((2, 2, 2)).reshape(3, -1).T @ strides
         flat = self.values.reshape(-1)[(cell @ strides)[..., None] + steps]
         return flat.reshape(*cell.shape[:-1], 2, 2, 2).astype(np.float64)
+
+
+def signed_distance(points_m: ArrayLike, vertices: ArrayLike, faces: ArrayLike) -> Array:
+    """Exact distances (n,) of points (n, 3) to a mesh (V, 3), (F, 3), metres, negative inside.
+
+    The sign comes from the nearest face of a closed mesh. On any other, such as a scan with holes,
+    inside is where the winding number exceeds a half (libigl's own combination of the two
+    multiplies the distance by 1 - 2w, which is no distance where w is neither 0 nor 1).
+    """
+    points = np.ascontiguousarray(points_m, dtype=np.float64)
+    corners = np.ascontiguousarray(vertices, dtype=np.float64)
+    triangles = np.ascontiguousarray(faces, dtype=np.int64)
+    if igl.is_edge_manifold(triangles) and len(igl.boundary_facets(triangles)[0]) == 0:
+        return igl.signed_distance(
+            points, corners, triangles, igl.SIGNED_DISTANCE_TYPE_PSEUDONORMAL
+        )[0]
+    apart = igl.signed_distance(points, corners, triangles, igl.SIGNED_DISTANCE_TYPE_UNSIGNED)[0]
+    inside = np.abs(igl.fast_winding_number(corners, triangles, points)) > 0.5
+    return np.where(inside, -apart, apart)
 
 
 def _interpolate(corners: Array, fraction: Array) -> tuple[Array, Array]:

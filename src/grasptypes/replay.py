@@ -15,13 +15,13 @@ surface.
 from pathlib import Path
 from typing import NamedTuple
 
-import igl
 import numpy as np
 import pandas as pd
 import pandera.pandas as pa
 import trimesh
 from numpy.typing import NDArray
 
+from grasptypes.distance_grid import signed_distance
 from grasptypes.errors import InputError
 from grasptypes.hand import configuration, kinematics, shapes
 
@@ -96,19 +96,6 @@ def read_reference_mesh(path: str | Path, scale: float) -> trimesh.Trimesh:
     return mesh
 
 
-def signed_distance(points: Array, mesh: trimesh.Trimesh) -> Array:
-    """Exact signed distances (n,) of points (n, 3) to a mesh, metres, negative inside.
-
-    Inside is where the winding number exceeds a half, which also serves scans that are not closed.
-    (libigl's own signed distance multiplies by 1 - 2w, no sign where w is neither 0 nor 1.)
-    """
-    points = np.ascontiguousarray(points)
-    vertices, faces = np.asarray(mesh.vertices), np.asarray(mesh.faces, dtype=np.int64)
-    apart = igl.signed_distance(points, vertices, faces, igl.SIGNED_DISTANCE_TYPE_UNSIGNED)[0]
-    inside = np.abs(igl.fast_winding_number(vertices, faces, points)) > 0.5
-    return np.where(inside, -apart, apart)
-
-
 def fit_hands(configurations: Array, mesh: trimesh.Trimesh, spacing_m: float) -> Fit:
     """Put the hand at each of the configurations (n, 17) and measure how it lies on the object.
 
@@ -121,7 +108,8 @@ def fit_hands(configurations: Array, mesh: trimesh.Trimesh, spacing_m: float) ->
     T_object_point = T_object_link[:, surface.link_index]
     points = np.einsum("npij,pj->npi", T_object_point[..., :3, :3], surface.points_m)
     points += T_object_point[..., :3, 3]
-    distances = signed_distance(points.reshape(-1, 3), mesh).reshape(len(points), -1)
+    distances = signed_distance(points.reshape(-1, 3), mesh.vertices, mesh.faces)
+    distances = distances.reshape(len(points), -1)
     starts = np.searchsorted(surface.link_index, np.arange(len(kinematics.LINK_NAMES)))
     depths = [_depth_in_hand(np.asarray(mesh.vertices), T) for T in T_object_link]
     return Fit(np.minimum.reduceat(distances, starts, axis=1), np.array(depths))

@@ -9,6 +9,7 @@ import pytest
 import trimesh
 
 from grasptypes import replay
+from grasptypes.distance_grid import signed_distance
 from grasptypes.errors import InputError
 from grasptypes.hand import configuration, shapes
 from grasptypes.published import read_published
@@ -61,7 +62,9 @@ def test_needle_between_the_hands_points_is_noticed() -> None:
 def test_open_scan_still_has_an_inside(plate: trimesh.Trimesh) -> None:
     plate.update_faces(np.arange(len(plate.faces)) != 3)
     assert not plate.is_watertight
-    distances = replay.signed_distance(np.array([[0, 0, -0.005], [0, 0, 0.005]]), plate)
+    distances = signed_distance(
+        np.array([[0, 0, -0.005], [0, 0, 0.005]]), plate.vertices, plate.faces
+    )
     np.testing.assert_allclose(distances, [-0.005, 0.005], atol=1e-9)
 
 
