@@ -2,6 +2,8 @@
 
 
 rule prepare_object:
+    input:
+        own=lambda wildcards: config["objects"]["own"].get(wildcards.object, {}).get("file", []),
     output:
         visual="data/objects/{object}/visual.glb",
         surface="data/objects/{object}/surface.npz",
@@ -13,7 +15,7 @@ rule prepare_object:
     benchmark:
         "logs/benchmarks/prepare_object/{object}.tsv"
     params:
-        settings=settings("objects", "names", "own"),
+        settings=settings("objects", "names", "own", "comparison"),
         own=lambda wildcards: config["objects"]["own"].get(wildcards.object),
         code=script_hash("prepare_object"),
     message:
@@ -57,3 +59,23 @@ rule contact_maps:
         expand(rules.map_contacts.output, object=OBJECTS, task=TASKS),
     message:
         "All contact maps are drawn"
+
+
+# The references are no input: few users have them, and the table in the repository stays then.
+rule compare_shapes:
+    input:
+        properties=expand(rules.prepare_object.output.properties, object=OBJECTS),
+        surfaces=expand(rules.prepare_object.output.surface, object=OBJECTS),
+    output:
+        table=update("reports/object_shapes.csv"),
+    log:
+        "logs/compare_shapes.log",
+    benchmark:
+        "logs/benchmarks/compare_shapes.tsv"
+    params:
+        samples=config["objects"]["comparison"],
+        code=script_hash("compare_shapes"),
+    message:
+        "Comparing the objects with reference meshes"
+    script:
+        "../scripts/compare_shapes.py"
