@@ -174,7 +174,7 @@ def map_contacts(
         style=np.array([STYLE_OF_GRIP[grip] for grip in grips]),
         grip=np.array(grips),
         part=np.array(["+".join(person.hold.parts) or WHOLE for person in shown]),
-        approach=np.float32([-person.placement.palm_side for person in shown]),
+        approach=_single([-person.placement.palm_side for person in shown]),
         closing=_single([person.placement.closing for person in shown]),
         centre_m=_single([person.placement.centre_m for person in shown]),
         height=_single([person.height for person in shown]),
