@@ -65,7 +65,7 @@ def read_affinities(
     Args:
         path: CSV with the columns `COLUMNS`, UTF-8.
         objects: names an `object` cell may hold.
-        tasks: names a `task` cell may hold.
+        tasks: tasks whose rows are wanted; those of others are checked and left out.
 
     Returns:
         The holds of each (object, task) that has any, in the table's order.
@@ -86,36 +86,31 @@ def read_affinities(
         if None in row or None in row.values():
             raise InputError(path, f"line {line}", f"must have {len(COLUMNS)} cells")
         _check_choice(path, line, "object", row["object"], objects)
-        _check_choice(path, line, "task", row["task"], tasks)
-        table.setdefault((row["object"], row["task"]), []).append(_hold(path, line, row))
+        hold = _hold(path, line, row)
+        if row["task"] in tasks:
+            table.setdefault((row["object"], row["task"]), []).append(hold)
     for key, holds in table.items():
         if sum(hold.affinity for hold in holds) <= 0:
             raise InputError(path, "affinity", f"every row of {' and '.join(key)} is zero")
     return {key: tuple(holds) for key, holds in table.items()}
 
 
-def holds_of(
-    table: Mapping[tuple[str, str], tuple[Hold, ...]],
-    object_name: str,
-    task: str,
-    part_names: Collection[str],
-    path: str | Path,
-) -> tuple[Hold, ...]:
-    """The holds of one object and task, checked against the parts the object really has.
+def check_holds(
+    holds: Collection[Hold], name: tuple[str, str], part_names: Collection[str], path: str | Path
+) -> None:
+    """Check that an object and task (`name`) has holds, of parts that the object really has.
 
     Raises:
         InputError: there is no row for them, or a row names a part the object does not have.
     """
-    holds = table.get((object_name, task))
     if not holds:
-        raise InputError(path, f"{object_name}, {task}", "has no row; add at least one")
+        raise InputError(path, " and ".join(name), "has no row; add at least one")
     for hold in holds:
         for part in hold.parts:
             if part not in part_names:
                 allowed = ", ".join([*part_names, WHOLE])
-                where = f"part of {object_name}, {task}"
+                where = f"part of {' and '.join(name)}"
                 raise InputError(path, where, f"'{part}' is not one of {allowed}")
-    return holds
 
 
 def _hold(path: Path, line: int, row: Mapping[str, Any]) -> Hold:

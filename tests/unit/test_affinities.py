@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from grasptypes.affinities import COLUMNS, Hold, holds_of, read_affinities
+from grasptypes.affinities import COLUMNS, Hold, check_holds, read_affinities
 from grasptypes.contact_evidence import CLASSES, GRIP_OF_TYPE
 from grasptypes.errors import InputError
 from grasptypes.objects.catalogue import OBJECTS
@@ -33,7 +33,6 @@ def test_reads_holds_by_object_and_task(tmp_path):
     ("row", "key"),
     [
         (GOOD.replace("mug", "jug"), "line 2, object"),
-        (GOOD.replace("use", "eat"), "line 2, task"),
         (GOOD.replace("wrap", "hug"), "line 2, grip"),
         (GOOD.replace("+x", "x"), "line 2, approach"),
         (GOOD.replace(",z,", ",w,"), "line 2, axis"),
@@ -69,10 +68,15 @@ def test_names_wrong_columns_and_missing_file(tmp_path):
 def test_unknown_part_and_missing_object_are_named(tmp_path):
     path = _table(tmp_path, GOOD)
     table = read_affinities(path, ["mug"], TASKS)
-    with pytest.raises(InputError, match=r"part of mug, use: 'handle' is not one of wall, \*"):
-        holds_of(table, "mug", "use", ["wall"], path)
-    with pytest.raises(InputError, match="mug, handoff: has no row"):
-        holds_of(table, "mug", "handoff", ["handle"], path)
+    with pytest.raises(InputError, match=r"part of mug and use: 'handle' is not one of wall, \*"):
+        check_holds(table["mug", "use"], ("mug", "use"), ["wall"], path)
+    with pytest.raises(InputError, match="mug and handoff: has no row"):
+        check_holds(table.get(("mug", "handoff"), ()), ("mug", "handoff"), ["handle"], path)
+
+
+def test_rows_of_other_tasks_are_checked_and_left_out(tmp_path):
+    path = _table(tmp_path, GOOD)
+    assert read_affinities(path, ["mug"], ["handoff"]) == {}
 
 
 def test_our_table_knows_every_object_its_parts_and_both_tasks():
@@ -80,7 +84,8 @@ def test_our_table_knows_every_object_its_parts_and_both_tasks():
     for name, build in OBJECTS.items():
         parts = [part.name for part in build().parts]
         for task in TASKS:
-            assert len(holds_of(table, name, task, parts, TABLE)) >= 3
+            assert len(table[name, task]) >= 3
+            check_holds(table[name, task], (name, task), parts, TABLE)
 
 
 @pytest.mark.skipif(

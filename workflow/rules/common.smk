@@ -1,18 +1,22 @@
 # What all rules share: the checked parameters, the names to loop over, and content hashes.
+from grasptypes.affinities import read_affinities
 from grasptypes.errors import InputError
 from grasptypes.guard import check_cache_links
 from grasptypes.params import read_yaml, validate_params
 from grasptypes.provenance import FileHash, code_hash
 
+SCHEMA = read_yaml(Path(workflow.basedir) / "workflow" / "schemas" / "params.schema.yaml")
+
 try:
     check_cache_links(workflow.basedir)
     read_yaml("params.yaml")  # Snakemake itself would let a duplicate key pass
-    validate_params(config, read_yaml(workflow.source_path("../schemas/params.schema.yaml")))
+    validate_params(config, SCHEMA)
+    OBJECTS = [*config["objects"]["names"], *config["objects"]["own"]]
+    TASKS = list(config["tasks"])
+    CATALOGUE = SCHEMA["properties"]["objects"]["properties"]["names"]["items"]["enum"]
+    HOLDS = read_affinities(config["contact_maps"]["affinities"], {*CATALOGUE, *OBJECTS}, TASKS)
 except InputError as error:
     sys.exit(f"error: {error}")
-
-OBJECTS = [*config["objects"]["names"], *config["objects"]["own"]]
-TASKS = list(config["tasks"])
 
 file_hash = FileHash(".snakemake/file_hashes.json")
 

@@ -28,7 +28,6 @@ rule map_contacts:
     input:
         surface=rules.prepare_object.output.surface,
         properties=rules.prepare_object.output.properties,
-        affinities=config["contact_maps"]["affinities"],
     output:
         contact_map="data/contact_maps/{object}/{task}.npz",
     log:
@@ -37,8 +36,7 @@ rule map_contacts:
         "logs/benchmarks/map_contacts/{object}_{task}.tsv"
     params:
         settings=settings("contact_maps"),
-        objects=OBJECTS,
-        tasks=TASKS,
+        holds=lambda wildcards: HOLDS.get((wildcards.object, wildcards.task), ()),
         seed=config["seed"],
         code=script_hash("map_contacts"),
     message:

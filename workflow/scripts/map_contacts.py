@@ -1,10 +1,10 @@
 """Map where people touch an object for a task; one job an object and task."""
 
-from collections.abc import Collection, Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from grasptypes.affinities import holds_of, read_affinities
+from grasptypes.affinities import Hold, check_holds
 from grasptypes.contact_map import map_contacts, sample_surface, write_contact_map
 from grasptypes.jobs import job
 from grasptypes.object_files import read_properties, read_surface
@@ -14,11 +14,9 @@ from grasptypes.seeds import seed
 def write_map(
     surface: str | Path,
     properties: str | Path,
-    affinities: str | Path,
     target: str | Path,
     name: tuple[str, str],
-    objects: Collection[str],
-    tasks: Collection[str],
+    holds: Sequence[Hold],
     seed_number: int,
     params: Mapping[str, Any],
 ) -> None:
@@ -26,8 +24,7 @@ def write_map(
     mesh = read_surface(surface)
     scale = read_properties(properties)["scale"]
     part_names = [str(part) for part in mesh.part_names]
-    table = read_affinities(affinities, objects, tasks)
-    holds = holds_of(table, *name, part_names, affinities)
+    check_holds(holds, name, part_names, params["affinities"])
     points = sample_surface(
         mesh.vertices,
         mesh.faces,
@@ -44,11 +41,9 @@ if __name__ == "__main__":
         write_map(
             snakemake.input.surface,
             snakemake.input.properties,
-            snakemake.input.affinities,
             snakemake.output.contact_map,
             (snakemake.wildcards.object, snakemake.wildcards.task),
-            snakemake.params.objects,
-            snakemake.params.tasks,
+            snakemake.params.holds,
             snakemake.params.seed,
             snakemake.params.settings,
         )

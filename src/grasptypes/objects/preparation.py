@@ -184,11 +184,14 @@ def visual_glb(parts: list[Part], crease_deg: float) -> bytes:
 
 
 def _pbr(name: str, material: Material) -> trimesh.visual.material.PBRMaterial:
-    opaque = material.base_color[3] >= 1.0
+    """The material in glTF's terms, whose colours are linear (glTF 2.0, section 3.9.2)."""
+    *srgb, opacity = material.base_color
+    encoded = np.array(srgb)
+    linear = np.where(encoded <= 0.04045, encoded / 12.92, ((encoded + 0.055) / 1.055) ** 2.4)
     return trimesh.visual.material.PBRMaterial(
         name=name,
-        baseColorFactor=np.round(np.array(material.base_color) * 255).astype(np.uint8),
+        baseColorFactor=np.round(np.append(linear, opacity) * 255).astype(np.uint8),
         metallicFactor=material.metallic,
         roughnessFactor=material.roughness,
-        alphaMode="OPAQUE" if opaque else "BLEND",
+        alphaMode="OPAQUE" if opacity >= 1.0 else "BLEND",
     )

@@ -1,0 +1,66 @@
+"""What Snakemake says before it runs anything."""
+
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from repository import ROOT, Repository, jobs
+
+
+def test_the_main_job_is_complete_and_small(fresh: Repository) -> None:
+    planned = jobs(fresh.run("snakemake", "-n", "reports/table1.csv"))
+    assert planned["prepare_object"] == 2
+    assert planned["map_contacts"] == 4
+    assert planned["synthesize_grasps"] == 4
+    assert planned["train_predictor"] == 4
+
+
+@pytest.mark.parametrize(
+    ("key", "value", "expected"),
+    [
+        ("objects.names", ["mug", "teapot"], "params.yaml: objects.names.1: 'teapot'"),
+        ("objects.scale", "big", "params.yaml: objects.scale: 'big' is not of type 'number'"),
+        ("seed", 0.5, "params.yaml: seed: 0.5 is not of type 'integer'"),
+    ],
+)
+def test_bad_params_end_with_one_line(
+    repository: Repository, key: str, value: object, expected: str
+) -> None:
+    repository.set_param(key, value)
+    output = repository.run("snakemake", "-n", check=False)
+    lines = [line for line in output.splitlines() if "profile" not in line]
+    assert len(lines) == 1, output
+    assert lines[0].startswith(f"error: {expected}")
+    assert not (repository.path / "data").exists()
+
+
+def test_a_cache_of_links_is_refused(repository: Repository) -> None:
+    repository.dvc("config", "cache.type", "hardlink")
+    output = repository.run("snakemake", "-n", check=False)
+    assert "error: " in output
+    assert "dvc config cache.type reflink,copy" in output
+
+
+def tool(name: str) -> str:
+    path = shutil.which(name, path=str(Path(sys.executable).parent))
+    assert path is not None, f"{name} is not installed"
+    return path
+
+
+def test_workflow_is_linted_and_formatted() -> None:
+    for command in (
+        [tool("snakemake"), "--lint"],
+        [tool("snakefmt"), "--check", "Snakefile", "workflow"],
+    ):
+        result = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
+        assert result.returncode == 0, result.stdout + result.stderr
+
+
+def test_every_rule_that_runs_a_script_hashes_that_script() -> None:
+    rules = "\n".join(path.read_text() for path in sorted((ROOT / "workflow/rules").glob("*.smk")))
+    for script in sorted((ROOT / "workflow/scripts").glob("*.py")):
+        assert f'"../scripts/{script.name}"' in rules, f"no rule runs {script.name}"
+        assert f'script_hash("{script.stem}")' in rules, f"{script.name} is not hashed"
