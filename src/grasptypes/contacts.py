@@ -1,0 +1,171 @@
+"""Where and in which direction a posed hand pushes against an object, from the signed distance.
+
+The same code serves the published poses (exact distance to a scan) and our own grasps (distance
+grid): anything with a `distance_and_gradient` will do.
+
+Neither tells forces. A link that lies near the object is taken to push with a weight that falls
+from 1 at touch to 0 at the reach, since published and synthesised hands end a few millimetres
+short of the surface or within it. Its direction lies between the surface's inward normal and the
+direction in which its finger closes: joint torque acts along the second, friction lets it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import NamedTuple, Protocol
+
+import igl
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from grasptypes.hand import kinematics, shapes
+
+Array = NDArray[np.float64]
+
+PALM = kinematics.LINK_NAMES.index("palm")
+FINGER_LINKS = tuple(
+    i for i, name in enumerate(kinematics.LINK_NAMES) if name.startswith(("proximal", "distal"))
+)
+DISTAL_LINKS = tuple(
+    i for i, name in enumerate(kinematics.LINK_NAMES) if name.startswith("distal")
+)
+# Closer than this the step to the nearest point is too short to tell a direction.
+TOUCH_M = 1e-3
+
+
+class DistanceField(Protocol):
+    """Signed distance to an object, negative inside, as `distance_grid.DistanceGrid` has it."""
+
+    def distance_and_gradient(self, points_m: ArrayLike) -> tuple[Array, Array]:
+        """Distances (...) in metres of points (..., 3), and directions (..., 3) out of it."""
+        ...
+
+
+@dataclass(frozen=True)
+class MeshDistance:
+    """Exact signed distance to a mesh, which need not be closed.
+
+    Attributes:
+        vertices_m: (V, 3) metres, object frame.
+        faces: (F, 3).
+    """
+
+    vertices_m: Array
+    faces: NDArray[np.int64]
+
+    def distance_and_gradient(self, points_m: ArrayLike) -> tuple[Array, Array]:
+        """Distances (...) in metres and unit directions (..., 3) out of the mesh.
+
+        Inside is where the winding number exceeds a half.
+        """
+        points = np.asarray(points_m, dtype=np.float64)
+        flat = np.ascontiguousarray(points.reshape(-1, 3))
+        unsigned = igl.SIGNED_DISTANCE_TYPE_UNSIGNED
+        apart, face, nearest = igl.signed_distance(flat, self.vertices_m, self.faces, unsigned)[:3]
+        inside = np.abs(igl.fast_winding_number(self.vertices_m, self.faces, flat)) > 0.5
+        distance = np.where(inside, -apart, apart)
+        far = apart > TOUCH_M
+        direction = _face_normals(self.vertices_m, self.faces[face])
+        direction[far] = (flat - nearest)[far] / distance[far, None]
+        return distance.reshape(points.shape[:-1]), direction.reshape(points.shape)
+
+
+def _face_normals(vertices: Array, faces: NDArray[np.int64]) -> Array:
+    a, b, c = (vertices[faces[:, corner]] for corner in range(3))
+    return unit(np.cross(b - a, c - a))
+
+
+class ContactSettings(NamedTuple):
+    """How contacts are measured."""
+
+    surface_spacing_m: float
+    """Distance between neighbouring points on the hand, metres."""
+    patch_depth_m: float
+    """A link's points further from the object than its nearest one count less by e, metres."""
+    reach_m: float
+    """Gap at which a link no longer pushes, metres."""
+    closing_weight: float
+    """Length of the closing direction added to the unit normal, without unit."""
+
+
+class Contacts(NamedTuple):
+    """The contact of each link in `kinematics.LINK_NAMES`; n poses, hand frame, metres."""
+
+    gap_m: Array
+    """(n, 9) signed distance between link and object, negative if they overlap."""
+    position_m: Array
+    """(n, 9, 3) middle of the object's points next to the link."""
+    normal: Array
+    """(n, 9, 3) unit vectors out of the object there, their mean direction."""
+    push: Array
+    """(n, 9, 3) unit vectors in which the links push the object."""
+    weight: Array
+    """(n, 9) how much a link counts as pushing, 0 to 1."""
+
+
+def find_contacts(
+    field: DistanceField,
+    T_object_hand: ArrayLike,
+    joint_angles_rad: ArrayLike,
+    settings: ContactSettings,
+) -> Contacts:
+    """Measure the contacts of hands posed at an object.
+
+    Args:
+        field: signed distance in the object's frame.
+        T_object_hand: (n, 4, 4) metres.
+        joint_angles_rad: (n, 8) in the order of `kinematics.JOINT_NAMES`.
+    """
+    T_object_hand = np.asarray(T_object_hand, dtype=np.float64)
+    T_hand_link = kinematics.link_poses(joint_angles_rad)
+    surface = shapes.surface_points(settings.surface_spacing_m)
+    on_hand = _apply(T_hand_link[:, surface.link_index], surface.points_m)
+    distance, outward = field.distance_and_gradient(_apply(T_object_hand[:, None], on_hand))
+    outward = np.einsum("nji,npj->npi", T_object_hand[:, :3, :3], outward)
+    on_object = on_hand - distance[..., None] * outward
+    gap, share = _patches(distance, surface.link_index, settings.patch_depth_m)
+    position, normal = share @ on_object, unit(share @ outward)
+    push = unit(settings.closing_weight * closing_directions(T_hand_link, position) - normal)
+    weight = np.clip(1.0 - gap / settings.reach_m, 0.0, 1.0)
+    return Contacts(gap, position, normal, push, weight)
+
+
+def closing_directions(T_hand_link: Array, position_m: Array) -> Array:
+    """Unit vectors (n, 9, 3) in which points (n, 9, 3) on the links move as the fingers close.
+
+    Zero for the palm and the knuckles. A fingertip turns about its finger's base like the link
+    before it, because the motor drives both.
+    """
+    directions = np.zeros_like(position_m)
+    for link in FINGER_LINKS:
+        finger = kinematics.LINK_NAMES[link][-1]
+        base = T_hand_link[:, kinematics.LINK_NAMES.index(f"proximal_{finger}")]
+        directions[:, link] = np.cross(base[:, :3, 2], position_m[:, link] - base[:, :3, 3])
+    return unit(directions)
+
+
+def unit(vectors: Array) -> Array:
+    """Vectors (..., d) at unit length; zero stays zero."""
+    length = np.linalg.norm(vectors, axis=-1, keepdims=True)
+    return np.divide(vectors, length, out=np.zeros_like(vectors), where=length > 0)
+
+
+def _patches(
+    distance: Array, link_index: NDArray[np.int64], depth_m: float
+) -> tuple[Array, Array]:
+    """Each link's gap (n, 9) and how its contact is shared among the hand's points (n, 9, p).
+
+    One nearest point alone would jump between a link's edges with the sampling of its surface.
+    """
+    links = len(kinematics.LINK_NAMES)
+    gap = np.empty((len(distance), links))
+    share = np.zeros((len(distance), links, distance.shape[1]))
+    for link in range(links):
+        points = link_index == link
+        gap[:, link] = distance[:, points].min(axis=1)
+        share[:, link, points] = np.exp((gap[:, link, None] - distance[:, points]) / depth_m)
+    return gap, share / share.sum(axis=2, keepdims=True)
+
+
+def _apply(T: Array, points: Array) -> Array:
+    return np.einsum("...ij,...j->...i", T[..., :3, :3], points) + T[..., :3, 3]
