@@ -53,7 +53,8 @@ class Backbone(nn.Module):
         size = (self.input_px, self.input_px)
         x = nn.functional.interpolate(x, size, mode="bilinear", antialias=True)
         x = ((x - self.mean) / self.deviation).contiguous(memory_format=torch.channels_last)
-        return self.stem(x).mean(dim=(2, 3))
+        # Averaged in single precision: bfloat16 would round away how a task shifts the colours.
+        return self.stem(x).to(torch.float32).mean(dim=(2, 3))
 
 
 def load_backbone(weights: Weights, input_px: int) -> Backbone:
@@ -76,7 +77,7 @@ def load_backbone(weights: Weights, input_px: int) -> Backbone:
 def untrained_backbone(
     name: str, input_px: int, state: Mapping[str, Tensor] | None = None, file: str = ""
 ) -> Backbone:
-    """The network called ``name``, with ``state`` if one is given and its random start otherwise."""
+    """The network called ``name``, with ``state`` or else with its random start."""
     network, stem, blocks = _NETWORKS[name]()
     if state is not None:
         try:

@@ -23,7 +23,7 @@ FOLD_SCHEMA = pa.DataFrameSchema(
 
 
 def split(views: Mapping[str, int], folds: int, seed: int) -> pd.DataFrame:
-    """Stratified folds over pictures (paper, section IV-A): each holds the same share of each object.
+    """Stratified folds over pictures (paper, section IV-A): each has its share of every object.
 
     A fold is given to a picture, before tasks come in, so that all tasks of a picture lie in one.
 

@@ -122,9 +122,8 @@ class Heads(nn.Module):
         sizes = self.architecture
         wide = Architecture(projection.shape[1], sizes.tasks, sizes.hidden, sizes.outputs)
         heads = Heads(wide, [()] * len(projection), self.dropout)
-        heads.load_state_dict(
-            {name: t for name, t in self.state_dict().items() if name != "weights.0"}, strict=False
-        )
+        kept = {name: t for name, t in self.state_dict().items() if name != "weights.0"}
+        heads.load_state_dict(kept, strict=False)
         heads.weights[0].copy_(torch.bmm(projection, self.weights[0]))
         heads.biases[0].copy_(self.biases[0] - torch.bmm(centre, heads.weights[0]))
         return heads.train(self.training)

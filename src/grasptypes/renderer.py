@@ -39,13 +39,14 @@ class Studio:
         min_distance_radii: closest camera distance in radii of the object.
         colour_randomisation: 0 keeps the materials' colours, 1 draws new ones for every view.
         ambient: linear ambient light.
-        lights: one mapping a light: ``intensity`` (lux) and ``direction`` (3,), the way the
+        lights: one mapping a light: ``intensity_lux`` and ``direction`` (3,), the way the
             light travels in the camera frame. The first is the key light, which throws the shadow.
         background_rgb: (3,) 8-bit colour of the ground at the centre of the picture.
         vignette: share by which the ground is darker in the corners.
         ground_elevation_rad: angle at which the camera looks down on the ground.
         shadow_strength: share of light the deepest shadow takes; 0 leaves the shadow out.
         shadow_softness_px: standard deviation of the shadow's blur.
+        shadow_fading: the highest point throws exp(-fading) of the lowest point's shadow.
         shadow_points: surface points that throw the shadow.
         png_compression: zlib level, 0 to 9.
     """
@@ -62,6 +63,7 @@ class Studio:
     ground_elevation_rad: float
     shadow_strength: float
     shadow_softness_px: float
+    shadow_fading: float
     shadow_points: int
     png_compression: int
 
@@ -168,7 +170,7 @@ class Camera:
         )
         camera = scene.add(lens)
         for light in studio.lights:
-            lamp = pyrender.DirectionalLight(intensity=light["intensity"])
+            lamp = pyrender.DirectionalLight(intensity=light["intensity_lux"])
             scene.add(lamp, pose=_looking_along(np.array(light["direction"])), parent_node=camera)
         return scene, camera, materials
 
@@ -196,6 +198,7 @@ class Camera:
                 _unit(studio.lights[0]["direction"]),
                 studio.shadow_softness_px,
                 studio.shadow_strength,
+                studio.shadow_fading,
             )
         colour = self._background * ground[..., None] + picture[..., :3]
         return np.minimum(colour + np.float32(0.5), 255).astype(np.uint8)

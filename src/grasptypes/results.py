@@ -1,4 +1,4 @@
-"""The tables of results: mean and spread over folds and seeds, beside the paper and the ceilings."""
+"""The tables of results: mean and spread over folds and seeds, beside paper and ceilings."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ import pandera.pandas as pa
 
 from grasptypes.ceilings import CEILINGS, ceilings
 from grasptypes.examples import Examples
+from grasptypes.learning_inputs import BackboneRecord
 from grasptypes.metrics import METRICS, evaluate
 from grasptypes.predictor import VARIANTS
 from grasptypes.samples import TYPES, labels_of
@@ -110,6 +111,19 @@ def score(
         where = examples.index.iloc[rows][["object", "view", "task"]].reset_index(drop=True)
         predictions.append(pd.concat([where.assign(**name), numbers], axis=1))
     return pd.DataFrame(metrics), pd.concat(predictions, ignore_index=True)
+
+
+def with_source(
+    metrics: pd.DataFrame, name: tuple[str, str], backbone: BackboneRecord, finetune: str
+) -> pd.DataFrame:
+    """Metrics of :func:`score` as a table of :data:`METRIC_SCHEMA`: what they are made from.
+
+    Args:
+        name: label source and model.
+    """
+    source = {"labels": name[0], "model": name[1]}
+    used = {"backbone": backbone.backbone, "weights": backbone.weights, "finetune": finetune}
+    return metrics.assign(**source, **used)[list(METRIC_SCHEMA.columns)]
 
 
 def curve_table(members: Sequence[Member], curves: np.ndarray) -> pd.DataFrame:

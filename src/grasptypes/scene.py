@@ -109,7 +109,7 @@ def viewpoints(
     min_distance_radii: float,
     rng: np.random.Generator,
 ) -> np.ndarray:
-    """Camera poses uniform on the sphere with random roll, each at a distance that frames the object.
+    """Camera poses uniform on the sphere, randomly rolled, at distances that frame the object.
 
     Args:
         vertices: (V, 3) points of the object in metres.
@@ -154,6 +154,7 @@ def ground_light(
     light_direction: np.ndarray,
     softness_px: float,
     strength: float,
+    fading: float,
 ) -> np.ndarray:
     """How much light the ground keeps in each pixel when the object rests on it.
 
@@ -166,6 +167,7 @@ def ground_light(
         light_direction: (3,) the way the light travels, camera frame.
         softness_px: standard deviation of the shadow's blur.
         strength: share of the light the deepest shadow takes away.
+        fading: a point as high as the highest throws exp(-fading) of a shadow.
 
     Returns:
         (size_px, size_px) float32 in [1 - strength, 1].
@@ -179,7 +181,7 @@ def ground_light(
     scale = cells / (2 * np.tan(field_of_view_rad / 2))
     column = cells / 2 + scale * shadow[:, 0] / -shadow[:, 2]
     row = cells / 2 - scale * shadow[:, 1] / -shadow[:, 2]
-    weight = np.exp(-2.0 * height_m / height_m.max())
+    weight = np.exp(-fading * height_m / height_m.max())
     bounds = [(-cells, 2 * cells)] * 2
     counts = np.histogram2d(row, column, bins=3 * cells, range=bounds, weights=weight)[0]
     blurred = gaussian_filter(counts, softness_px / 4)[cells : 2 * cells, cells : 2 * cells]

@@ -148,7 +148,7 @@ class _Data:
 
 
 def _principal(features: Tensor, schedule: Schedule) -> tuple[Tensor, Tensor]:
-    """Centre (F,) and projection (F, components) onto the leading directions, unit variance each."""
+    """Centre (F,) and projection (F, components) onto the leading principal directions."""
     centre, spread = features.mean(dim=0), features.std(dim=0) + features.std() / 100
     scaled = (features - centre) / spread
     variances, directions = torch.linalg.eigh(scaled.T @ scaled / len(features))

