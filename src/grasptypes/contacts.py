@@ -26,9 +26,7 @@ PALM = kinematics.LINK_NAMES.index("palm")
 FINGER_LINKS = tuple(
     i for i, name in enumerate(kinematics.LINK_NAMES) if name.startswith(("proximal", "distal"))
 )
-DISTAL_LINKS = tuple(
-    i for i, name in enumerate(kinematics.LINK_NAMES) if name.startswith("distal")
-)
+DISTAL_LINKS = tuple(i for i, name in enumerate(kinematics.LINK_NAMES) if name.startswith("distal"))
 # Closer than this the step to the nearest point is too short to tell a direction.
 TOUCH_M = 1e-3
 
@@ -150,9 +148,7 @@ def unit(vectors: Array) -> Array:
     return np.divide(vectors, length, out=np.zeros_like(vectors), where=length > 0)
 
 
-def _patches(
-    distance: Array, link_index: NDArray[np.int64], depth_m: float
-) -> tuple[Array, Array]:
+def _patches(distance: Array, link_index: NDArray[np.int64], depth_m: float) -> tuple[Array, Array]:
     """Each link's gap (n, 9) and how its contact is shared among the hand's points (n, 9, p).
 
     One nearest point alone would jump between a link's edges with the sampling of its surface.
