@@ -1,0 +1,68 @@
+"""The tables of grasps and of attempts: one row a session, and one a grasp that physics saw."""
+
+from __future__ import annotations
+
+import pandas as pd
+import pandera.pandas as pa
+
+from grasptypes.hand import configuration, kinematics
+from grasptypes.synthesis.search import ALL_TERMS
+
+# Why a grasp is invalid, in the order in which they are looked for; empty if it is valid.
+REASONS = ("joint_limit", "self_collision", "penetrates", "no_contact", "dropped")
+ENERGY_TERMS = tuple(f"energy_{term}" for term in ALL_TERMS)
+
+
+def _lengths(column: pd.Series, *counts: int) -> pd.Series:
+    return column.map(len).isin(counts)
+
+
+_TRIAL_COLUMNS = {
+    "object": pa.Column(str),
+    "task": pa.Column(str),
+    "session": pa.Column(int, pa.Check.ge(1), description="person, from 1"),
+    "rank": pa.Column(int, pa.Check.ge(0), description="place by energy, 0 is the best"),
+    "energy": pa.Column(float, description="before physics; low is good"),
+    **{term: pa.Column(float, description="part of the energy") for term in ENERGY_TERMS},
+    "hand_configuration": pa.Column(
+        object,
+        pa.Check(lambda column: _lengths(column, configuration.LENGTH)),
+        description="17 numbers, see hand.configuration; held in physics, or planned if not",
+    ),
+    "joint_angles_rad": pa.Column(
+        object,
+        pa.Check(lambda column: _lengths(column, len(kinematics.JOINT_NAMES))),
+        description="in the order of kinematics.JOINT_NAMES",
+    ),
+    "penetration_m": pa.Column(float, pa.Check.ge(0), description="hand in object"),
+    "moved_m": pa.Column(float, pa.Check.ge(0), description="object in the hand, under gravity"),
+    "turned_rad": pa.Column(float, pa.Check.ge(0), description="object in the hand"),
+    "valid": pa.Column(bool),
+    "valid_strict": pa.Column(bool, description="valid, and within the strict depth"),
+    "reason": pa.Column(str, pa.Check.isin(("", *REASONS))),
+    "seed": pa.Column(int, pa.Check.ge(0), description="of the session's random draws"),
+}
+_REASON_MATCHES = pa.Check(lambda table: table.valid == (table.reason == ""), name="reason")
+
+ATTEMPT_SCHEMA = pa.DataFrameSchema(
+    _TRIAL_COLUMNS,
+    checks=_REASON_MATCHES,
+    strict=True,
+    ordered=True,
+    unique=["object", "task", "session", "rank"],
+)
+GRASP_SCHEMA = pa.DataFrameSchema(
+    {
+        **_TRIAL_COLUMNS,
+        "tries": pa.Column(int, pa.Check.ge(1), description="grasps that physics saw"),
+        "grip": pa.Column(str, description="the person's, of the affinity table"),
+        "contact_links": pa.Column(object, description="link of each contact, its name"),
+        "contact_points_m": pa.Column(object, description="3 numbers a contact, object frame"),
+        "contact_normals": pa.Column(object, description="3 a contact, into the object"),
+        "contact_forces_n": pa.Column(object, description="of each contact, along its normal"),
+    },
+    checks=_REASON_MATCHES,
+    strict=True,
+    ordered=True,
+    unique=["object", "task", "session"],
+)

@@ -1,0 +1,133 @@
+"""Hands around an object, guided by one session's contact: the first step of ContactGrasp.
+
+Half of them follow the person: the palm comes the person's way and the fingers close where the
+person's did. The others come along the normals at points the person touched, at any roll, since
+this hand is not a human one and may hold the same place better from another side.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from grasptypes.synthesis.closing import ClosingSettings, close_fingers, slide_in
+from grasptypes.synthesis.fields import Field
+from grasptypes.synthesis.hand_model import HandModel
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Person:
+    """One session's contact and the way the hand was placed, in the object's frame.
+
+    Attributes:
+        points_m, normals: (N, 3) points spread over the surface, and their outward normals.
+        contact: (N,) 0 to 1.
+        grip: a grip of the affinity table.
+        approach: (3,) unit vector, the way the palm came.
+        closing: (3,) unit vector, from the thumb to the fingers.
+        centre_m: (3,) between palm, fingers and thumb.
+    """
+
+    points_m: Array
+    normals: Array
+    contact: Array
+    grip: str
+    approach: Array
+    closing: Array
+    centre_m: Array
+
+
+class CandidateSettings(NamedTuple):
+    """How to draw candidates."""
+
+    number: int
+    """Candidates a session."""
+    follow_share: float
+    """Share of them that follow the person's own placement of the hand."""
+    position_sd_m: float
+    """Standard deviation of the point aimed at."""
+    tilt_sd_rad: float
+    """Standard deviation of the approach about each axis, and of the roll of followers."""
+    rolls: int
+    """Evenly spaced rolls of the others."""
+    start_m: float
+    """Distance at which hands start, clear of any object."""
+    back_offs_m: list[float]
+    """How far hands draw back again from where they touched."""
+    grips: Mapping[str, Mapping[str, Any]]
+    """For each grip, `spreads_rad` and `palm_distances_m` (of the palm from the point aimed at;
+    the object may stop it earlier)."""
+
+
+class Hands(NamedTuple):
+    """Hands in the object's frame."""
+
+    T_object_hand: Array
+    """(n, 4, 4)."""
+    joint_angles_rad: Array
+    """(n, 8) in the order of `kinematics.JOINT_NAMES`."""
+
+    def take(self, index: NDArray[Any]) -> Hands:
+        """Those of an index or mask."""
+        return Hands(self.T_object_hand[index], self.joint_angles_rad[index])
+
+
+def draw_candidates(
+    model: HandModel, grid: Field, person: Person, settings: CandidateSettings,
+    closing: ClosingSettings, draw: np.random.Generator,
+) -> Hands:  # fmt: skip
+    """Hands that have come up to the object and closed their fingers."""
+    count = settings.number
+    followers = draw.random(count) < settings.follow_share
+    aim, approach, side = _aims(person, followers, settings, draw)
+    grip = settings.grips[person.grip]
+    spread = draw.choice(grip["spreads_rad"], count)
+    distance = draw.choice(grip["palm_distances_m"], count)
+    T = np.zeros((count, 4, 4))
+    T[:, :3, :3] = frames(approach, side)
+    T[:, :3, 3] = aim - settings.start_m * approach
+    T[:, 3, 3] = 1.0
+    moved = slide_in(model, grid, T, spread, settings.start_m - distance, closing)
+    touched = moved < settings.start_m - distance - closing.touch_m
+    moved -= touched * draw.choice(settings.back_offs_m, count)
+    T[:, :3, 3] += moved[:, None] * approach
+    return Hands(T, close_fingers(model, grid, T, spread, closing))
+
+
+def frames(approach: Array, side: Array) -> Array:
+    """Rotations (n, 3, 3) whose z is the approach (n, 3) and whose y is nearest to side (n, 3)."""
+    z = approach / np.linalg.norm(approach, axis=1, keepdims=True)
+    y = side - np.einsum("ni,ni->n", side, z)[:, None] * z
+    y /= np.linalg.norm(y, axis=1, keepdims=True)
+    return np.stack([np.cross(y, z), y, z], axis=-1)
+
+
+def _aims(
+    person: Person, followers: NDArray[np.bool_], settings: CandidateSettings,
+    draw: np.random.Generator,
+) -> tuple[Array, Array, Array]:  # fmt: skip
+    """Points aimed at, unit approaches, and sides of fingers 1 and 2 (all (n, 3))."""
+    count = len(followers)
+    weight = person.contact / person.contact.sum()
+    point = draw.choice(len(weight), count, p=weight)
+    aim = np.where(followers[:, None], person.centre_m, person.points_m[point])
+    aim = aim + draw.normal(0.0, settings.position_sd_m, (count, 3))
+    approach = np.where(followers[:, None], person.approach, -person.normals[point])
+    approach = approach + draw.normal(0.0, settings.tilt_sd_rad, (count, 3))
+    approach /= np.linalg.norm(approach, axis=1, keepdims=True)
+    roll = draw.integers(settings.rolls, size=count) * (2 * np.pi / settings.rolls)
+    near = draw.normal(0.0, settings.tilt_sd_rad, count) + np.pi * draw.integers(2, size=count)
+    roll = np.where(followers, near, roll)
+    # Roll zero is the person's own closing direction, or for lack of one the least aligned axis.
+    across = np.broadcast_to(person.closing, (count, 3))
+    parallel = np.abs(np.einsum("ni,ni->n", across, approach)) > 0.9
+    least = np.eye(3)[np.abs(approach).argmin(axis=1)]
+    y = frames(approach, np.where(parallel[:, None], least, across))[:, :, 1]
+    side = np.cos(roll)[:, None] * y + np.sin(roll)[:, None] * np.cross(approach, y)
+    return aim, approach, side

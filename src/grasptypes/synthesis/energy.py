@@ -1,0 +1,239 @@
+"""ContactGrasp's energy of a grasp (Brahmbhatt et al. 2019, section IV), for many grasps at once.
+
+Points of the object that the person touched attract the hand, points left alone repel it. Lengths
+are in metres; the weights are ContactGrasp's, so energies compare with the published ones in kind.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numba
+import numpy as np
+from numpy.typing import NDArray
+
+from grasptypes.hand import kinematics
+from grasptypes.poses import inverse
+from grasptypes.synthesis.closing import moved
+from grasptypes.synthesis.fields import Field, distance, distance_in
+from grasptypes.synthesis.hand_model import FIRST_DISTAL, FIRST_PROXIMAL, PALM, HandModel
+
+Array = NDArray[np.float64]
+
+TERMS = ("attraction", "repulsion", "thumb", "penetration", "self_collision")
+# Gaps beyond this are only bounded from below: nobody asks how far a link is that does not touch.
+FAR_M = 0.005
+_THUMB = len(kinematics.LINK_NAMES) - 1
+
+
+class EnergySettings(NamedTuple):
+    """Weights and ranges; ContactGrasp's values are in params.yaml."""
+
+    contact_threshold: float
+    """Contact from which a point attracts, 0 to 1."""
+    attraction_points: int
+    """How many contact points to use at most."""
+    repulsion_points: int
+    """How many other points to use at most."""
+    attraction_weight: float
+    repulsion_weight: float
+    thumb_weight: float
+    penetration_weight: float
+    self_collision_weight: float
+    range_m: float
+    """Distance from which a point's term stays constant."""
+    repulsion_offset_m: float
+    """How far the nearest hand point may lie from a point's normal to repel."""
+
+
+class Targets(NamedTuple):
+    """Points of the object that attract or repel the hand."""
+
+    points: Array
+    """(m, 3) metres, the object's frame; the attracting ones first."""
+    normals: Array
+    """(m, 3) outward unit vectors."""
+    attracting: int
+    """How many attract."""
+
+
+class Closeness(NamedTuple):
+    """How the links of n hands lie to the object and to each other."""
+
+    gaps_m: Array
+    """(n, 9) smallest signed distance of each link's points to the object, or a lower bound of it
+    where a link is far."""
+    self_depth_m: Array
+    """(n,) how deep links of different fingers, or a finger and the palm, overlap."""
+
+    @property
+    def penetration_m(self) -> Array:
+        """(n,) depth of the deepest hand point in the object, 0 or more."""
+        return np.maximum(-self.gaps_m.min(axis=1), 0.0)
+
+
+def draw_targets(
+    points_m: Array, normals: Array, contact: Array, settings: EnergySettings,
+    draw: np.random.Generator,
+) -> Targets:  # fmt: skip
+    """Choose a session's attracting and repelling points among (N, 3) surface points.
+
+    If nobody touched anything, the points with the strongest contact attract.
+    """
+    touched = contact >= min(settings.contact_threshold, contact.max())
+    chosen = []
+    for mask, count in (
+        (touched, settings.attraction_points), (~touched, settings.repulsion_points)
+    ):  # fmt: skip
+        index = np.flatnonzero(mask)
+        chosen.append(draw.permutation(index)[:count])
+    index = np.concatenate(chosen)
+    return Targets(
+        np.ascontiguousarray(points_m[index], dtype=np.float64),
+        np.ascontiguousarray(normals[index], dtype=np.float64),
+        len(chosen[0]),
+    )
+
+
+def closeness(model: HandModel, grid: Field, link_poses: Array) -> Closeness:
+    """Distances of hands with links at (n, 9, 4, 4) in the object's frame."""
+    return Closeness(*_closeness(model, grid, link_poses))
+
+
+def energies(
+    model: HandModel, link_poses: Array, close: Closeness, targets: Targets,
+    settings: EnergySettings,
+) -> Array:  # fmt: skip
+    """The terms of each grasp's energy; their sum is the energy, low is good.
+
+    Args:
+        link_poses: (n, 9, 4, 4) links in the object's frame.
+        close: of the same hands.
+
+    Returns:
+        (n, 5) in the order of `TERMS`.
+    """
+    terms = np.empty((len(link_poses), len(TERMS)))
+    contact = _contact_terms(
+        model, inverse(link_poses), targets.points, targets.normals, targets.attracting,
+        settings.range_m, settings.repulsion_offset_m,
+    )  # fmt: skip
+    count = len(targets.points)
+    terms[:, 0] = settings.attraction_weight * contact[:, 0] / count
+    terms[:, 1] = -settings.repulsion_weight * contact[:, 1] / count
+    terms[:, 2] = settings.thumb_weight * contact[:, 2]
+    terms[:, 3] = settings.penetration_weight * close.penetration_m
+    terms[:, 4] = settings.self_collision_weight * close.self_depth_m
+    return terms
+
+
+@numba.njit(cache=True)
+def _contact_terms(
+    model: HandModel, T_link_object: Array, points: Array, normals: Array, attracting: int,
+    range_m: float, offset_m: float,
+) -> Array:  # fmt: skip
+    """(n, 3): sums of attracting and repelling distances, and the thumb's smallest distance."""
+    result = np.zeros((len(T_link_object), 3))
+    for n in range(len(T_link_object)):
+        thumb = range_m
+        for m in range(len(points)):
+            nearest, link = range_m, -1
+            for candidate in range(len(model.radii)):
+                x, y, z = moved(T_link_object[n, candidate], points, m)
+                cx, cy, cz = model.centres[candidate]
+                bound = model.radii[candidate] + nearest
+                if (x - cx) ** 2 + (y - cy) ** 2 + (z - cz) ** 2 > bound * bound:
+                    continue
+                gap = distance_in(model.grids, model.grid_of_link[candidate], x, y, z)
+                if candidate == _THUMB and m < attracting:
+                    thumb = min(thumb, max(gap, 0.0))
+                if gap < nearest:
+                    nearest, link = gap, candidate
+            if m < attracting:
+                result[n, 0] += min(abs(nearest), range_m)
+            elif link < 0 or _faces(model, T_link_object[n, link], link, points, normals, m,
+                                    nearest, offset_m):  # fmt: skip
+                result[n, 1] += min(abs(nearest), range_m)
+        result[n, 2] = thumb
+    return result
+
+
+@numba.njit(cache=True)
+def _faces(
+    model: HandModel, pose: Array, link: int, points: Array, normals: Array, row: int,
+    gap: float, offset_m: float,
+) -> bool:  # fmt: skip
+    """Whether the link's point nearest to an object's point lies close to that point's normal."""
+    grids, index = model.grids, model.grid_of_link[link]
+    x, y, z = moved(pose, points, row)
+    h = 0.5 * grids.spacing
+    gx = distance_in(grids, index, x + h, y, z) - distance_in(grids, index, x - h, y, z)
+    gy = distance_in(grids, index, x, y + h, z) - distance_in(grids, index, x, y - h, z)
+    gz = distance_in(grids, index, x, y, z + h) - distance_in(grids, index, x, y, z - h)
+    norm = max(np.sqrt(gx * gx + gy * gy + gz * gz), 1e-12)
+    along = 0.0
+    for axis, g in enumerate((gx, gy, gz)):
+        for k in range(3):
+            along += pose[axis, k] * normals[row, k] * g / norm
+    return abs(gap) * np.sqrt(max(1.0 - along * along, 0.0)) <= offset_m
+
+
+@numba.njit(cache=True)
+def _closeness(model: HandModel, grid: Field, poses: Array) -> tuple[Array, Array]:
+    links = len(model.radii)
+    gaps = np.full((len(poses), links), np.inf)
+    depth = np.zeros(len(poses))
+    for n in range(len(poses)):
+        for link in range(links):
+            cx, cy, cz = moved(poses[n, link], model.centres, link)
+            bound = distance(grid, cx, cy, cz) - model.radii[link]
+            if bound > FAR_M:
+                gaps[n, link] = bound
+                continue
+            for index in range(model.starts[link], model.starts[link + 1]):
+                x, y, z = moved(poses[n, link], model.points, index)
+                gaps[n, link] = min(gaps[n, link], distance(grid, x, y, z))
+        for link in range(FIRST_PROXIMAL, links):
+            for other in range(links):
+                if _may_collide(link, other):
+                    depth[n] = max(depth[n], _overlap(model, poses[n, link], link,
+                                                      poses[n, other], other))  # fmt: skip
+    return gaps, depth
+
+
+@numba.njit(cache=True)
+def _may_collide(link: int, other: int) -> bool:
+    """Whether a finger's link can meet another one: not of its own finger, nor its own base.
+
+    Of two fingers' links, the first looks for the second.
+    """
+    same_finger = (link - FIRST_PROXIMAL) % 3 == (other - FIRST_PROXIMAL) % 3
+    if other >= FIRST_PROXIMAL:
+        return link > other and not same_finger
+    if other == PALM:
+        return link >= FIRST_DISTAL
+    return (link - FIRST_PROXIMAL) % 3 != other - 1 or link >= FIRST_DISTAL
+
+
+@numba.njit(cache=True)
+def _overlap(model: HandModel, pose: Array, link: int, other_pose: Array, other: int) -> float:
+    """Depth of a link's deepest point in another link, 0 if they do not overlap."""
+    cx, cy, cz = moved(pose, model.centres, link)
+    ox, oy, oz = moved(other_pose, model.centres, other)
+    reach = model.radii[link] + model.radii[other]
+    if (cx - ox) ** 2 + (cy - oy) ** 2 + (cz - oz) ** 2 > reach * reach:
+        return 0.0
+    depth = 0.0
+    for index in range(model.starts[link], model.starts[link + 1]):
+        x, y, z = moved(pose, model.points, index)
+        if (x - ox) ** 2 + (y - oy) ** 2 + (z - oz) ** 2 > model.radii[other] ** 2:
+            continue
+        x, y, z = x - other_pose[0, 3], y - other_pose[1, 3], z - other_pose[2, 3]
+        gap = distance_in(
+            model.grids, model.grid_of_link[other],
+            other_pose[0, 0] * x + other_pose[1, 0] * y + other_pose[2, 0] * z,
+            other_pose[0, 1] * x + other_pose[1, 1] * y + other_pose[2, 1] * z,
+            other_pose[0, 2] * x + other_pose[1, 2] * y + other_pose[2, 2] * z,
+        )  # fmt: skip
+        depth = max(depth, -gap)
+    return depth

@@ -1,0 +1,131 @@
+"""A quick look at whether the touching points could hold the object still, before any physics.
+
+Contacts that press with a total force of one newton, each within its friction cone, leave at best
+some force and torque unbalanced. That rest is zero exactly if the origin lies in the convex hull
+of the wrenches along the cones' edges (force closure, up to its boundary), so it is found as the
+hull's point of least norm with Gilbert's algorithm (Gilbert 1966).
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numba
+import numpy as np
+from numpy.typing import NDArray
+
+from grasptypes.synthesis.closing import moved
+from grasptypes.synthesis.fields import Field, distance, gradient
+from grasptypes.synthesis.hand_model import HandModel
+
+Array = NDArray[np.float64]
+
+
+class EquilibriumSettings(NamedTuple):
+    """What may press on the object, and how it is judged."""
+
+    friction: float
+    """Coulomb coefficient between hand and object."""
+    cone_edges: int
+    """Edges of the pyramid that stands for a friction cone."""
+    contact_m: float
+    """Distance up to which a point of the hand counts as touching."""
+    iterations: int
+    """Steps of Gilbert's algorithm."""
+    weight: float
+    """What one newton of imbalance adds to the energy."""
+
+
+def imbalance(
+    model: HandModel, grid: Field, link_poses: Array, centre_of_mass_m: Array, radius_m: float,
+    settings: EquilibriumSettings,
+) -> Array:  # fmt: skip
+    """Force that stays unbalanced when each of n hands presses with one newton in all.
+
+    Args:
+        link_poses: (n, 9, 4, 4) links in the object's frame.
+        centre_of_mass_m: (3,) torques are about it.
+        radius_m: length that makes torques comparable to forces.
+
+    Returns:
+        (n,) newtons, 0 (balanced) to 1; 1 if nothing touches.
+    """
+    return _imbalance(
+        model, grid, link_poses, np.asarray(centre_of_mass_m, dtype=np.float64), float(radius_m),
+        settings.friction, settings.cone_edges, settings.contact_m, settings.iterations,
+    )  # fmt: skip
+
+
+@numba.njit(cache=True)
+def _imbalance(
+    model: HandModel, grid: Field, poses: Array, centre: Array, radius: float, friction: float,
+    edges: int, contact_m: float, iterations: int,
+) -> Array:  # fmt: skip
+    result = np.ones(len(poses))
+    wrenches = np.empty((len(model.points) * edges, 6))
+    for n in range(len(poses)):
+        count = 0
+        for link in range(len(model.radii)):
+            cx, cy, cz = moved(poses[n, link], model.centres, link)
+            if distance(grid, cx, cy, cz) - model.radii[link] > contact_m:
+                continue
+            for index in range(model.starts[link], model.starts[link + 1]):
+                x, y, z = moved(poses[n, link], model.points, index)
+                if distance(grid, x, y, z) <= contact_m:
+                    gx, gy, gz = gradient(grid, x, y, z)
+                    arm = (x - centre[0], y - centre[1], z - centre[2])
+                    _cone(wrenches, count, arm, (-gx, -gy, -gz), radius, friction, edges)
+                    count += edges
+        if count > 0:
+            result[n] = min(1.0, _least_norm(wrenches[:count], iterations))
+    return result
+
+
+@numba.njit(cache=True)
+def _cone(
+    wrenches: Array, first: int, arm: tuple[float, float, float],
+    normal: tuple[float, float, float], radius: float, friction: float, edges: int,
+) -> None:  # fmt: skip
+    """Wrenches along the edges of a friction cone, forces in N and torques in N per `radius`."""
+    nx, ny, nz = normal
+    if abs(nx) < 0.6:
+        ux, uy, uz = 0.0, nz, -ny
+    else:
+        ux, uy, uz = -nz, 0.0, nx
+    length = np.sqrt(ux * ux + uy * uy + uz * uz)
+    ux, uy, uz = ux / length, uy / length, uz / length
+    vx, vy, vz = ny * uz - nz * uy, nz * ux - nx * uz, nx * uy - ny * ux
+    for edge in range(edges):
+        angle = 2.0 * np.pi * edge / edges
+        c, s = friction * np.cos(angle), friction * np.sin(angle)
+        fx, fy, fz = nx + c * ux + s * vx, ny + c * uy + s * vy, nz + c * uz + s * vz
+        row = wrenches[first + edge]
+        row[0], row[1], row[2] = fx, fy, fz
+        row[3] = (arm[1] * fz - arm[2] * fy) / radius
+        row[4] = (arm[2] * fx - arm[0] * fz) / radius
+        row[5] = (arm[0] * fy - arm[1] * fx) / radius
+
+
+@numba.njit(cache=True)
+def _least_norm(points: Array, iterations: int) -> float:
+    """Norm of the point nearest to the origin in the convex hull of points (n, d)."""
+    current = points[0].copy()
+    for _ in range(iterations):
+        lowest, best = np.inf, 0
+        for row in range(len(points)):
+            value = 0.0
+            for k in range(points.shape[1]):
+                value += points[row, k] * current[k]
+            if value < lowest:
+                lowest, best = value, row
+        square, along = 0.0, 0.0
+        for k in range(points.shape[1]):
+            difference = points[best, k] - current[k]
+            square += difference * difference
+            along -= difference * current[k]
+        if along <= 0.0 or square == 0.0:
+            break
+        step = min(1.0, along / square)
+        for k in range(points.shape[1]):
+            current[k] += step * (points[best, k] - current[k])
+    return np.sqrt(np.sum(current * current))

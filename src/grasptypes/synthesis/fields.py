@@ -1,0 +1,139 @@
+"""Signed distances at single points, compiled: what all the batched searches are made of."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numba
+import numpy as np
+from numpy.typing import NDArray
+
+from grasptypes.distance_grid import DistanceGrid
+
+Array = NDArray[np.float64]
+
+
+class Field(NamedTuple):
+    """A signed distance grid as plain arrays, which compiled functions can take."""
+
+    values: NDArray[np.float32]
+    """(nx, ny, nz) metres, negative inside."""
+    origin: Array
+    """(3,) position of the first node, metres."""
+    spacing: float
+    """Metres between nodes."""
+
+
+class Fields(NamedTuple):
+    """Several grids of different sizes in one array, so that an index chooses among them."""
+
+    values: NDArray[np.float32]
+    """(n,) all nodes, one grid after the other."""
+    starts: NDArray[np.int64]
+    """(k,) where each grid begins in `values`."""
+    shapes: NDArray[np.int64]
+    """(k, 3) nodes along each axis."""
+    origins: Array
+    """(k, 3) metres."""
+    spacing: float
+    """Metres between nodes, the same for all."""
+
+
+def field(grid: DistanceGrid) -> Field:
+    """The grid's arrays in the types the compiled functions expect."""
+    values = np.ascontiguousarray(grid.values, dtype=np.float32)
+    return Field(values, np.asarray(grid.origin_m, dtype=np.float64), float(grid.spacing_m))
+
+
+def fields(grids: Sequence[DistanceGrid]) -> Fields:
+    """Pack grids of one spacing."""
+    packed = [field(grid) for grid in grids]
+    sizes = [grid.values.size for grid in packed]
+    return Fields(
+        np.concatenate([grid.values.ravel() for grid in packed]),
+        np.cumsum([0, *sizes[:-1]]),
+        np.array([grid.values.shape for grid in packed]),
+        np.array([grid.origin for grid in packed]),
+        packed[0].spacing,
+    )
+
+
+@numba.njit(cache=True, inline="always")
+def _cell(coordinate: float, nodes: int) -> tuple[int, float, float]:
+    """Lower node, weight of the upper one, and how far (in nodes) the point lies outside."""
+    inside = min(max(coordinate, 0.0), nodes - 1.0)
+    lower = min(int(inside), nodes - 2)
+    return lower, inside - lower, coordinate - inside
+
+
+@numba.njit(cache=True, inline="always")
+def _beyond(value: float, way_squared: float) -> float:
+    """Lower bound of the distance at a point that lies a way outside of a box.
+
+    The way to the box's nearest point and the way on to the surface within the convex box never
+    form an acute angle, hence Pythagoras.
+    """
+    if way_squared == 0.0:
+        return value
+    return np.sqrt(value * value + way_squared)
+
+
+@numba.njit(cache=True)
+def distance(grid: Field, x: float, y: float, z: float) -> float:
+    """Signed distance at a point in metres, trilinear.
+
+    Outside of the grid's box it is a lower bound, so that a step of that length never jumps over
+    the surface.
+    """
+    values, origin, h = grid
+    i, u, a = _cell((x - origin[0]) / h, values.shape[0])
+    j, v, b = _cell((y - origin[1]) / h, values.shape[1])
+    k, w, c = _cell((z - origin[2]) / h, values.shape[2])
+    low = (1 - v) * ((1 - w) * values[i, j, k] + w * values[i, j, k + 1]) + v * (
+        (1 - w) * values[i, j + 1, k] + w * values[i, j + 1, k + 1]
+    )
+    i += 1
+    high = (1 - v) * ((1 - w) * values[i, j, k] + w * values[i, j, k + 1]) + v * (
+        (1 - w) * values[i, j + 1, k] + w * values[i, j + 1, k + 1]
+    )
+    return _beyond((1 - u) * low + u * high, h * h * (a * a + b * b + c * c))
+
+
+@numba.njit(cache=True)
+def distances(grid: Field, points: Array) -> Array:
+    """Signed distances (n,) at points (n, 3), metres."""
+    result = np.empty(len(points))
+    for n in range(len(points)):
+        result[n] = distance(grid, points[n, 0], points[n, 1], points[n, 2])
+    return result
+
+
+@numba.njit(cache=True)
+def gradient(grid: Field, x: float, y: float, z: float) -> tuple[float, float, float]:
+    """Unit vector away from the surface at a point, by central differences over one node."""
+    h = 0.5 * grid.spacing
+    gx = distance(grid, x + h, y, z) - distance(grid, x - h, y, z)
+    gy = distance(grid, x, y + h, z) - distance(grid, x, y - h, z)
+    gz = distance(grid, x, y, z + h) - distance(grid, x, y, z - h)
+    norm = max(np.sqrt(gx * gx + gy * gy + gz * gz), 1e-12)
+    return gx / norm, gy / norm, gz / norm
+
+
+@numba.njit(cache=True)
+def distance_in(grids: Fields, index: int, x: float, y: float, z: float) -> float:
+    """As `distance`, in one of several grids."""
+    values, starts, shapes, origins, h = grids
+    ny, nz = shapes[index, 1], shapes[index, 2]
+    i, u, a = _cell((x - origins[index, 0]) / h, shapes[index, 0])
+    j, v, b = _cell((y - origins[index, 1]) / h, ny)
+    k, w, c = _cell((z - origins[index, 2]) / h, nz)
+    n = starts[index] + (i * ny + j) * nz + k
+    low = (1 - v) * ((1 - w) * values[n] + w * values[n + 1]) + v * (
+        (1 - w) * values[n + nz] + w * values[n + nz + 1]
+    )
+    n += ny * nz
+    high = (1 - v) * ((1 - w) * values[n] + w * values[n + 1]) + v * (
+        (1 - w) * values[n + nz] + w * values[n + nz + 1]
+    )
+    return _beyond((1 - u) * low + u * high, h * h * (a * a + b * b + c * c))

@@ -1,0 +1,63 @@
+"""Synthesize a grasp for every session of an object and task, and test it in physics."""
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from grasptypes.contact_map import read_contact_map
+from grasptypes.distance_grid import DistanceGrid
+from grasptypes.grasps import ATTEMPT_SCHEMA, GRASP_SCHEMA
+from grasptypes.jobs import job
+from grasptypes.object_files import read_properties
+from grasptypes.physics import PhysicsSettings, physics, read_body
+from grasptypes.synthesis.fields import field
+from grasptypes.synthesis.search import Thing
+from grasptypes.synthesis.settings import sampled_hand, search_settings
+from grasptypes.synthesis.trials import Problem, ValiditySettings, synthesize
+from grasptypes.tables import write_table
+
+
+def write_grasps(
+    inputs: Mapping[str, str | Path],
+    outputs: Mapping[str, str | Path],
+    name: tuple[str, str],
+    seed_number: int,
+    synthesis: Mapping[str, Any],
+    physics_params: Mapping[str, Any],
+) -> None:
+    """Write the grasps and attempts of `name` (object, task).
+
+    Args:
+        inputs: distance_grid, properties, collision, contact_map and hand (its URDF).
+        outputs: grasps and attempts.
+        synthesis, physics_params: those sections of params.yaml.
+    """
+    contact_map = read_contact_map(inputs["contact_map"])
+    thing = Thing(
+        field(DistanceGrid.load(inputs["distance_grid"])),
+        np.array(read_properties(inputs["properties"])["centre_of_mass_m"]),
+        float(np.ptp(contact_map.points, axis=0).max() / 2),
+    )
+    problem = Problem(*name, thing, contact_map, seed_number)
+    body = read_body(inputs["collision"], inputs["properties"])
+    validity = ValiditySettings(**physics_params["validity"])
+    with physics(inputs["hand"], body, PhysicsSettings(**physics_params["test"])) as world:
+        grasps, attempts = synthesize(
+            problem, sampled_hand(synthesis), world, search_settings(synthesis), validity
+        )
+    write_table(grasps, outputs["grasps"], GRASP_SCHEMA)
+    write_table(attempts, outputs["attempts"], ATTEMPT_SCHEMA)
+
+
+if __name__ == "__main__":
+    with job(snakemake.log):
+        write_grasps(
+            snakemake.input,
+            snakemake.output,
+            (snakemake.wildcards.object, snakemake.wildcards.task),
+            snakemake.params.seed,
+            snakemake.params.synthesis,
+            snakemake.params.physics,
+        )
