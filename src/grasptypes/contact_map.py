@@ -37,7 +37,7 @@ class ContactMap:
         normals: (N, 3) float32, outward.
         part_index: (N,) int16 into `part_names`.
         part_names: (P,) str.
-        probability: (N,) float32, share of people who touch the point.
+        probability: (N,) float32, share of people who touch the point; 0 where unknown.
         sessions: (S, N) float32, one person's contact each, 0 to 1.
         style: (S,) str, power or precision.
         grip: (S,) str, a grip of the affinity table.
@@ -45,7 +45,7 @@ class ContactMap:
         approach: (S, 3) float32, unit direction in which the palm moves onto the object.
         closing: (S, 3) float32, unit direction from the thumb to the fingers.
         centre_m: (S, 3) float32, between palm, fingers and thumb.
-        height: (S,) float32, 0 to 1 along the held parts.
+        height: (S,) float32, 0 to 1 along the held parts, or along what a measured map shows.
         hand_length_m: (S,) float32, of a hand as large as the object's scale makes it.
     """
 
@@ -101,6 +101,17 @@ def sample_surface(
     return Points(np.asarray(points_m), mesh.face_normals[face], parts.astype(np.int16))
 
 
+def draw_hand(draw: np.random.Generator, params: Mapping[str, Any], scale: float) -> Hand:
+    """A person's hand, grown with the object's scale as ContactGrasp's contact maps are.
+
+    Args:
+        params: the `contact_maps` section of params.yaml.
+    """
+    group = params["people"][int(draw.integers(len(params["people"])))]
+    length_m = draw.normal(group["hand_length_m"], group["hand_length_sd_m"])
+    return Hand.of_length(scale * length_m, params["hand"])
+
+
 def draw_session(
     points: Points,
     part_names: Sequence[str],
@@ -116,7 +127,7 @@ def draw_session(
     Args:
         key: object, task, session and seed: all that the draw depends on beside the parameters.
         params: the `contact_maps` section of params.yaml.
-        scale: the object's; the hand grows with it, as ContactGrasp's contact maps do.
+        scale: the object's.
 
     Raises:
         InputError: nobody can hold the object as the drawn row of the affinity table says.
@@ -127,13 +138,11 @@ def draw_session(
     if not hold.parts:
         mask[:] = True
     surface = Surface(points.points_m, points.normals, mask)
-    group = params["people"][int(draw.integers(len(params["people"])))]
-    length_m = draw.normal(group["hand_length_m"], group["hand_length_sd_m"])
-    hand = Hand.of_length(scale * length_m, params["hand"])
+    hand = draw_hand(draw, params, scale)
     for _ in range(params["tries"]):
         placement, height = place_hand(surface, hold, hand, params["placement"], draw)
         contact = handprint(surface, hold.grip, placement, hand)
-        if _opposes(points.normals[contact >= params["threshold"]], placement.closing):
+        if opposes(points.normals[contact >= params["threshold"]], placement.closing):
             return Session(hold, placement, height, hand, contact)
     raise InputError(
         params["affinities"],
@@ -162,14 +171,24 @@ def map_contacts(
         draw_session(points, part_names, holds, (*name, number, seed_number), params, scale)
         for number in range(1, count + 1)
     ]
-    shown = people[: params["sessions"]]
+    probability = np.mean([person.contact for person in people], axis=0)
+    return of_sessions(points, part_names, probability, people[: params["sessions"]])
+
+
+def of_sessions(
+    points: Points,
+    part_names: Sequence[str],
+    probability: NDArray[np.float64],
+    shown: Sequence[Session],
+) -> ContactMap:
+    """The contact map of a population's probability (N,) and the sessions drawn for it."""
     grips = [person.hold.grip for person in shown]
     return ContactMap(
         points=points.points_m.astype(np.float32),
         normals=points.normals.astype(np.float32),
         part_index=points.part_index,
         part_names=np.array(part_names, dtype=np.str_),
-        probability=np.mean([person.contact for person in people], axis=0).astype(np.float32),
+        probability=_single(probability),
         sessions=_single([person.contact for person in shown]),
         style=np.array([STYLE_OF_GRIP[grip] for grip in grips]),
         grip=np.array(grips),
@@ -204,7 +223,7 @@ def read_contact_map(path: str | Path) -> ContactMap:
     return ContactMap(**{field.name: arrays[field.name] for field in fields(ContactMap)})
 
 
-def _opposes(normals: NDArray[np.float64], closing: NDArray[np.float64]) -> bool:
+def opposes(normals: NDArray[np.float64], closing: NDArray[np.float64]) -> bool:
     """Whether touched normals (K, 3) face both ways along the closing direction."""
     facing = normals @ closing
     return bool((facing > OPPOSED_COSINE).any() and (facing < -OPPOSED_COSINE).any())

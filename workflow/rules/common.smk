@@ -2,6 +2,7 @@
 from grasptypes.affinities import read_affinities
 from grasptypes.errors import InputError
 from grasptypes.guard import check_cache_links
+from grasptypes.own_objects import check_every_hold, check_own_objects, measured_map
 from grasptypes.params import read_yaml, validate_params
 from grasptypes.provenance import FileHash, code_hash
 
@@ -14,7 +15,10 @@ try:
     OBJECTS = [*config["objects"]["names"], *config["objects"]["own"]]
     TASKS = list(config["tasks"])
     CATALOGUE = SCHEMA["properties"]["objects"]["properties"]["names"]["items"]["enum"]
-    HOLDS = read_affinities(config["contact_maps"]["affinities"], {*CATALOGUE, *OBJECTS}, TASKS)
+    check_own_objects(config["objects"], TASKS)
+    AFFINITIES = config["contact_maps"]["affinities"]
+    HOLDS = read_affinities(AFFINITIES, {*CATALOGUE, *OBJECTS}, TASKS)
+    check_every_hold(config["objects"], TASKS, HOLDS, AFFINITIES)
 except InputError as error:
     sys.exit(f"error: {error}")
 

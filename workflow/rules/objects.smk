@@ -1,6 +1,29 @@
 # Objects and where people touch them.
 
 
+def object_settings(wildcards):
+    """What a catalogue object or an own one is made with; its contact maps are not."""
+    own = config["objects"]["own"].get(wildcards.object)
+    if own is None:
+        return settings("objects", "names", "own", "import", "comparison")
+    block = {key: value for key, value in own.items() if key != "contact_maps"}
+    return settings("objects", "names", "scale", "comparison") | {"own": block}
+
+
+def measured_input(wildcards):
+    """The contact map measured for an own object and task; most have none."""
+    return measured_map(config["objects"], wildcards.object, wildcards.task) or []
+
+
+def contact_settings(wildcards):
+    """What a contact map is made with: the rows of the affinity table or the measured map."""
+    if measured_input(wildcards):
+        unit = config["objects"]["own"][wildcards.object]["unit"]
+        return settings("contact_maps", "affinities", "population", "tries") | {"unit": unit}
+    holds = HOLDS[wildcards.object, wildcards.task]
+    return settings("contact_maps", "measured") | {"holds": holds}
+
+
 rule prepare_object:
     input:
         own=lambda wildcards: config["objects"]["own"].get(wildcards.object, {}).get("file", []),
@@ -15,8 +38,7 @@ rule prepare_object:
     benchmark:
         "logs/benchmarks/prepare_object/{object}.tsv"
     params:
-        settings=settings("objects", "names", "own", "comparison"),
-        own=lambda wildcards: config["objects"]["own"].get(wildcards.object),
+        settings=object_settings,
         code=script_hash("prepare_object"),
     message:
         "Preparing {wildcards.object}"
@@ -28,6 +50,7 @@ rule map_contacts:
     input:
         surface=rules.prepare_object.output.surface,
         properties=rules.prepare_object.output.properties,
+        measured=measured_input,
     output:
         contact_map="data/contact_maps/{object}/{task}.npz",
     log:
@@ -35,8 +58,7 @@ rule map_contacts:
     benchmark:
         "logs/benchmarks/map_contacts/{object}_{task}.tsv"
     params:
-        settings=settings("contact_maps"),
-        holds=lambda wildcards: HOLDS.get((wildcards.object, wildcards.task), ()),
+        settings=contact_settings,
         seed=config["seed"],
         code=script_hash("map_contacts"),
     message:

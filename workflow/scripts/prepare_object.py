@@ -10,20 +10,16 @@ from grasptypes.objects.mesh_import import ImportedModel, ImportLimits, import_m
 from grasptypes.objects.preparation import Resolution, prepare
 
 
-def find_model(
-    name: str, settings: Mapping[str, Any], own: Mapping[str, Any] | None
-) -> ImportedModel:
-    """Return the model of a name: the user's mesh if there is a block of it."""
-    if own:
-        return import_model(own, ImportLimits(**settings["import"]))
+def find_model(name: str, settings: Mapping[str, Any]) -> ImportedModel:
+    """Return the model of a name: the user's mesh if the settings hold a block `own`."""
+    if "own" in settings:
+        return import_model(settings["own"], ImportLimits(**settings["import"]))
     return ImportedModel(OBJECTS[name](), settings["scale"], mass_kg=None, repairs=())
 
 
-def prepare_object(
-    name: str, settings: Mapping[str, Any], own: Mapping[str, Any] | None, folder: Path
-) -> tuple[str, ...]:
+def prepare_object(name: str, settings: Mapping[str, Any], folder: Path) -> tuple[str, ...]:
     """Write an object's files to a folder; returns what was repaired."""
-    found = find_model(name, settings, own)
+    found = find_model(name, settings)
     resolution = Resolution(**settings["resolution"])
     prepare(name, found.model, found.scale, resolution, folder, found.mass_kg, found.repairs)
     return found.repairs
@@ -34,8 +30,7 @@ if __name__ == "__main__":
         repairs = prepare_object(
             snakemake.wildcards.object,
             snakemake.params.settings,
-            snakemake.params.own,
             Path(snakemake.output.properties).parent,
         )
         for repair in repairs:
-            log.warning("%s: %s", snakemake.params.own["file"], repair)
+            log.warning("%s: %s", snakemake.input.own, repair)

@@ -17,8 +17,8 @@ from numpy.typing import NDArray
 from grasptypes.errors import InputError
 from grasptypes.objects import solids
 from grasptypes.objects.parts import Material, ObjectModel, Part
+from grasptypes.objects.units import UNITS_M
 
-UNITS_M = {"m": 1.0, "cm": 0.01, "mm": 0.001, "inch": 0.0254}
 FORMATS = (".stl", ".obj", ".ply", ".glb")
 GREY = Material((0.62, 0.62, 0.60, 1.0), roughness=0.6)
 
