@@ -141,17 +141,15 @@ def explain(measures: Measures, thresholds: Thresholds) -> list[Label]:
     """The labels of n grasps, each with its way through the tree."""
     types = classify(measures, thresholds)
     return [
-        _explain(GRASP_TYPES[grasp_type], Measures(*values), thresholds)
+        _explain(GRASP_TYPES[grasp_type], values.tolist(), thresholds)
         for grasp_type, values in zip(types, np.stack(measures, axis=1), strict=True)
     ]
 
 
-def _explain(grasp_type: str, one: Measures, thresholds: Thresholds) -> Label:
-    """The explanation of one grasp whose type is known; fields of `one` are numbers."""
-    palm = ("palm gap", one.palm_gap_m, thresholds.palm_gap_m)
-    small = ("enclosed diameter", one.enclosed_diameter_m, thresholds.small_diameter_m)
-    sideways = ("sideways share", one.sideways_share, thresholds.sideways_share)
-    large = ("fingertip span", one.span_m, thresholds.large_span_m)
+def _explain(grasp_type: str, measured: list[float], thresholds: Thresholds) -> Label:
+    """The explanation of one grasp whose type is known, measured in the order of `Measures`."""
+    names = ("palm gap", "enclosed diameter", "sideways share", "fingertip span")
+    palm, small, sideways, large = zip(names, measured, thresholds, strict=True)
     if grasp_type in (PRECISION, PRECISION_SPHERE):
         kind, passed = "precision", [palm, sideways]
     else:

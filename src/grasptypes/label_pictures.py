@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pandas as pd
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
@@ -71,7 +72,7 @@ def draw_distribution(table: pd.DataFrame, types: tuple[str, ...], title: str) -
     return figure
 
 
-def _draw_totals(axes, table: pd.DataFrame, types: tuple[str, ...]) -> None:
+def _draw_totals(axes: Axes, table: pd.DataFrame, types: tuple[str, ...]) -> None:
     places = np.arange(len(types))
     ours = table[list(COUNTS)].sum().to_numpy()
     published = table[[f"published_{name}" for name in COUNTS]].sum().to_numpy()

@@ -24,3 +24,42 @@ rule evaluate_labels:
         "Comparing the rule's labels with the people's"
     script:
         "../scripts/evaluate_labels.py"
+
+
+rule label_grasps:
+    input:
+        grasps=expand("data/grasps/{object}/{task}.parquet", object=OBJECTS, task=TASKS),
+        grids=expand("data/objects/{object}/distance_grid.npz", object=OBJECTS),
+    output:
+        grasps="data/grasps.csv",
+        samples="data/samples.csv",
+    log:
+        "logs/label_grasps.log",
+    benchmark:
+        "logs/benchmarks/label_grasps.tsv"
+    params:
+        settings=settings("grasp_types", "fitted_on", "softness", "own_frames"),
+        code=script_hash("label_grasps"),
+    message:
+        "Labelling all grasps"
+    script:
+        "../scripts/label_grasps.py"
+
+
+rule compare_distribution:
+    input:
+        samples=rules.label_grasps.output.samples,
+        published="assets/published_labels.csv",
+    output:
+        table="reports/distribution.csv",
+        figure="reports/figures/distribution.png",
+    log:
+        "logs/compare_distribution.log",
+    benchmark:
+        "logs/benchmarks/compare_distribution.tsv"
+    params:
+        code=script_hash("compare_distribution"),
+    message:
+        "Comparing the grasp types with the published counts"
+    script:
+        "../scripts/compare_distribution.py"

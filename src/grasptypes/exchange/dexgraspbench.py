@@ -1,0 +1,104 @@
+"""DexGraspBench npy: one dictionary a grasp, pickled in a NumPy file.
+
+Facts of the format (DexGraspBench, README and src/task/convert_format.py): `obj_pose` (7, position
+then quaternion w, x, y, z, in the world), `obj_scale`, `obj_path`, and `pregrasp_qpos`,
+`grasp_qpos`, `squeeze_qpos` (7 + joints: the hand's pose in the world, then its joint angles); its
+converters open the hand to 0.9 of the angles before and close it to 1.1 after the grasp.
+
+A pickle can run code when it is read. Files are therefore read by an unpickler that knows NumPy's
+arrays and plain values, and nothing else.
+"""
+
+from __future__ import annotations
+
+import io
+import pickle
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from grasptypes.errors import InputError
+from grasptypes.exchange.records import (
+    PosedHands,
+    from_position_quaternion,
+    to_position_quaternion,
+)
+from grasptypes.files import write_bytes
+from grasptypes.hand.kinematics import JOINT_LIMITS_RAD, JOINT_NAMES
+
+QPOS = 7 + len(JOINT_NAMES)
+OPEN, CLOSED = 0.9, 1.1
+_NUMPY = {"_reconstruct", "scalar", "ndarray", "dtype", "_frombuffer"}
+
+
+class _ArrayUnpickler(pickle.Unpickler):
+    def find_class(self, module: str, name: str) -> Any:
+        if module.split(".")[0] == "numpy" and name in _NUMPY:
+            return super().find_class(module, name)
+        raise pickle.UnpicklingError(f"holds {module}.{name}, which is no array")
+
+
+def write_grasp(
+    path: str | Path, hands: PosedHands, index: int, scale: float, object_path: str
+) -> None:
+    """Write one grasp, the object at the world's origin.
+
+    Args:
+        scale: of the mesh in `object_path`.
+        object_path: folder of the object as MeshProcess prepares it.
+    """
+    pose = to_position_quaternion(hands.T_object_hand[index])
+    angles = hands.joint_angles_rad[index]
+    content = {
+        "obj_pose": to_position_quaternion(np.eye(4)),
+        "obj_scale": float(scale),
+        "obj_path": object_path,
+        "pregrasp_qpos": np.concatenate([pose, _turned(angles, OPEN)]),
+        "grasp_qpos": np.concatenate([pose, angles]),
+        "squeeze_qpos": np.concatenate([pose, _turned(angles, CLOSED)]),
+    }
+    buffer = io.BytesIO()
+    np.save(buffer, np.array(content, dtype=object), allow_pickle=True)
+    write_bytes(path, buffer.getvalue())
+
+
+def read_grasp(path: str | Path) -> PosedHands:
+    """Read one grasp of the BarrettHand with eight joints in our order.
+
+    Raises:
+        InputError: not such a file, or one that holds anything but arrays and plain values.
+    """
+    content = _read(path)
+    missing = {"obj_pose", "obj_path", "grasp_qpos"} - set(content)
+    if missing:
+        raise InputError(path, ", ".join(sorted(missing)), "is missing")
+    qpos = np.asarray(content["grasp_qpos"], dtype=np.float64)
+    if qpos.shape != (QPOS,):
+        raise InputError(path, "grasp_qpos", f"has shape {qpos.shape} instead of ({QPOS},)")
+    T_world_object = from_position_quaternion(content["obj_pose"])
+    T_object_hand = np.linalg.inv(T_world_object) @ from_position_quaternion(qpos[:7])
+    held = np.array([bool(content.get("succ_flag", True))])
+    name = Path(str(content["obj_path"])).name
+    return PosedHands(name, T_object_hand[None], qpos[None, 7:], held)
+
+
+def _turned(angles: NDArray[np.float64], factor: float) -> NDArray[np.float64]:
+    """The fingers' angles (8,) times a factor, within the limits; the spread stays."""
+    turned = np.concatenate([angles[:2], angles[2:] * factor])
+    return np.clip(turned, *JOINT_LIMITS_RAD.T)
+
+
+def _read(path: str | Path) -> dict[str, Any]:
+    try:
+        with Path(path).open("rb") as file:
+            np.lib.format.read_magic(file)
+            np.lib.format.read_array_header_1_0(file)
+            content = _ArrayUnpickler(file).load()
+    except (OSError, ValueError, EOFError, pickle.UnpicklingError) as error:
+        raise InputError(path, "", f"is no grasp of DexGraspBench: {error}") from error
+    content = content.item() if isinstance(content, np.ndarray) and content.ndim == 0 else content
+    if not isinstance(content, dict):
+        raise InputError(path, "", "holds no dictionary")
+    return content
