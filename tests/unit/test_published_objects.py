@@ -5,6 +5,7 @@ import pytest
 import trimesh
 
 from grasptypes.object_files import Surface, write_surface
+from grasptypes.published_data import PUBLISHED, REFERENCES, lacking_data
 from grasptypes.published_objects import object_distances, own_mesh
 
 
@@ -42,3 +43,10 @@ def test_reference_comes_first_and_what_is_nowhere_is_left_out(own, tmp_path):
     assert np.ptp(found["bar"].vertices_m, axis=0) == pytest.approx([0.2, 0.2, 0.2])
     found = object_distances(names, tmp_path, own_folder, 2.0, {})
     assert np.ptp(found["bar"].vertices_m, axis=0) == pytest.approx([0.2, 0.04, 0.02])
+
+
+def test_lacking_data_are_named_with_their_source(tmp_path):
+    assert lacking_data({PUBLISHED: str(tmp_path), REFERENCES: str(tmp_path)}) == ""
+    line = lacking_data({PUBLISHED: str(tmp_path), REFERENCES: "/nowhere"})
+    assert line.startswith("GRASPTYPES_REFERENCE_MESHES=/nowhere names nothing, get a folder")
+    assert PUBLISHED in lacking_data({})

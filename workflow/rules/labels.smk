@@ -8,9 +8,10 @@ rule evaluate_labels:
         # Models of our own stand in for the scans that were never published.
         own=expand("data/objects/{object}/surface.npz", object=OBJECTS),
     output:
-        table="reports/label_agreement.csv",
-        validation="reports/label_cross_validation.csv",
-        figure="reports/figures/label_confusion.png",
+        # Kept as they are where the data are lacking.
+        table=update("reports/label_agreement.csv"),
+        validation=update("reports/label_cross_validation.csv"),
+        figure=update("reports/figures/label_confusion.png"),
     log:
         "logs/evaluate_labels.log",
     benchmark:

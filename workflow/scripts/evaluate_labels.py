@@ -5,6 +5,8 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from grasptypes.agreement import (
     AGREEMENT_SCHEMA,
     THRESHOLD_SCHEMA,
@@ -14,37 +16,13 @@ from grasptypes.agreement import (
     confusion,
     cross_validate,
     describe_fit,
-    judge,
 )
-from grasptypes.contacts import ContactSettings
 from grasptypes.errors import InputError
 from grasptypes.grasp_type import Thresholds, classify
 from grasptypes.jobs import job
 from grasptypes.label_pictures import draw_confusion, save_figure
-from grasptypes.published import read_published
-from grasptypes.published_objects import object_distances
+from grasptypes.published_data import judge_published, lacking_data
 from grasptypes.tables import write_table
-
-HOW = {
-    "GRASPTYPES_PUBLISHED_CSV": "name the authors' GraspTypesWithTasks.csv (GitHub, "
-    "nikleer/GraspTypesWithTasks)",
-    "GRASPTYPES_REFERENCE_MESHES": "name a folder of ContactDB's meshes as <object>.stl (GitHub, "
-    "F1sh-Fang/contactdb_assets)",
-}
-
-
-def read_judged(settings: Mapping[str, Any], scale: float, own: Path) -> Judged:
-    """Measure the published poses that the environment names."""
-    paths = {}
-    for variable, how in HOW.items():
-        paths[variable] = os.environ.get(variable, "")
-        if not Path(paths[variable] or "missing").exists():
-            raise InputError(variable, paths[variable], f"is not there: let it {how}")
-    published = read_published(paths["GRASPTYPES_PUBLISHED_CSV"])
-    references = paths["GRASPTYPES_REFERENCE_MESHES"]
-    names = sorted(published.object.unique())
-    fields = object_distances(names, references, own, scale, settings["own_frames"])
-    return judge(published, fields, ContactSettings(**settings["contacts"]))
 
 
 def evaluate_labels(judged: Judged, settings: Mapping[str, Any], table: Path, figure: Path) -> str:
@@ -59,10 +37,10 @@ def evaluate_labels(judged: Judged, settings: Mapping[str, Any], table: Path, fi
 
 
 def validate_thresholds(judged: Judged, settings: Mapping[str, Any], table: Path) -> str:
-    """Fit on all objects but one, in turn, those that `fitted_on` names; returns a line to log."""
+    """Fit on all objects that `fitted_on` names but one, in turn; returns a line to log."""
     softness, start = (Thresholds(**settings[name]) for name in ("softness", "thresholds"))
-    known = [name in settings["fitted_on"] for name in judged.objects]
-    scores = cross_validate(judged.select(known), softness, start)
+    known = judged.select(np.isin(judged.objects, settings["fitted_on"]))
+    scores = cross_validate(known, softness, start)
     write_table(scores, table, THRESHOLD_SCHEMA)
     total = scores.iloc[-1]
     return f"leaving objects out: accuracy {total.accuracy:.3f}, kappa {total.kappa:.3f}"
@@ -71,6 +49,13 @@ def validate_thresholds(judged: Judged, settings: Mapping[str, Any], table: Path
 if __name__ == "__main__":
     with job(snakemake.log) as log:
         settings, out = snakemake.params.settings, snakemake.output
-        judged = read_judged(settings, snakemake.params.scale, Path(snakemake.params.own))
-        log.info(evaluate_labels(judged, settings, Path(out.table), Path(out.figure)))
-        log.info(validate_thresholds(judged, settings, Path(out.validation)))
+        lacking = lacking_data(os.environ)
+        if lacking and not all(Path(path).exists() for path in out):
+            raise InputError("reports/label_agreement.csv", "", f"cannot be made: {lacking}")
+        if lacking:
+            log.warning("the tables stay as they are: %s", lacking)
+        else:
+            own, scale = snakemake.params.own, snakemake.params.scale
+            judged = judge_published(os.environ, own, scale, settings)
+            log.info(evaluate_labels(judged, settings, Path(out.table), Path(out.figure)))
+            log.info(validate_thresholds(judged, settings, Path(out.validation)))
