@@ -58,8 +58,8 @@ def read_probability(
         raise InputError(
             path,
             "",
-            f"shows {share:.0%} of the object, at least {measured['min_seen_share']:.0%} are "
-            "needed: is it in the unit and the frame of the object's file?",
+            f"shows {share:.0%} of the object (its vertices and {measured['max_gap_m']} m around), "
+            f"{measured['min_seen_share']:.0%} are needed: is it in the object's unit and frame?",
         )
     probability = np.nan_to_num(seen, nan=0.0)
     if (probability >= params["threshold"]).sum() < MIN_WARM_POINTS:

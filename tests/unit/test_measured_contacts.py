@@ -111,7 +111,7 @@ def test_arrays_are_those_of_every_map_and_come_back_the_same(bottle, points, tm
 @pytest.mark.parametrize(
     ("metres", "red", "reason"),
     [
-        (0.001, girdle, "unit and the frame"),
+        (0.001, girdle, "unit and frame"),
         (1.0, lambda mesh: 120, "is the same wherever"),
         (1.0, lambda mesh: np.where(np.arange(len(mesh.vertices)) == 9, 200, 1), "almost nowhere"),
     ],

@@ -67,6 +67,32 @@ def test_inside_out_is_turned(tmp_path):
     assert imported.repairs == ("turned faces outwards",)
 
 
+def split_edge(faces, middle):
+    """Faces with a vertex in the middle of the first one's edge, where a face has no area."""
+    a, b, c = faces[0]
+    return np.vstack([faces[1:], [[a, middle, c], [middle, b, c], [a, b, middle]]])
+
+
+def test_a_face_without_area_that_closes_a_seam_stays(tmp_path):
+    mesh = ball()
+    middle = mesh.vertices[mesh.faces[0, :2]].mean(axis=0)
+    faces = split_edge(mesh.faces, len(mesh.vertices))
+    seamed = trimesh.Trimesh(np.vstack([mesh.vertices, middle]), faces, process=False)
+    seamed.export(tmp_path / "seam.ply")
+    imported = import_model(own(tmp_path / "seam.ply"), LIMITS)
+    assert imported.repairs == ()
+    assert imported.model.parts[0].solid.volume() == pytest.approx(mesh.volume)
+
+
+def test_faces_that_are_there_twice_are_dropped(tmp_path):
+    mesh = ball()
+    trimesh.Trimesh(mesh.vertices, np.vstack([mesh.faces, mesh.faces[:3]]), process=False).export(
+        tmp_path / "twice.ply"
+    )
+    imported = import_model(own(tmp_path / "twice.ply"), LIMITS)
+    assert imported.repairs == ("dropped 3 degenerate or double faces",)
+
+
 def test_wrong_unit_names_the_right_one(tmp_path):
     ball(40.0).export(tmp_path / "ball.stl")
     assert "mm would fit" in refusal(tmp_path / "ball.stl")

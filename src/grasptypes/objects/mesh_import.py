@@ -73,11 +73,12 @@ def import_model(own: Mapping[str, Any], limits: ImportLimits) -> ImportedModel:
     repairs: list[str] = []
     parts = []
     for name, mesh in meshes.items():
-        solid = _solid(_tidy(mesh, repairs), repairs)
+        solid = _mended(mesh, repairs)
         if solid is not None:
             parts.append(Part(name, solid, GREY))
     if len(parts) < len(meshes):
         whole = _tidy(trimesh.util.concatenate(list(meshes.values())), [])
+        repairs = []  # what was mended on the way does not show in the rebuilt surface
         parts = [Part("body", _rebuild(path, whole, limits, repairs), GREY)]
     # With a given mass any density will do: the inertia is scaled to the mass.
     model = ObjectModel(tuple(parts), own.get("density_kg_m3", 1e3), own.get("shell_thickness_m"))
@@ -144,6 +145,19 @@ def _check_size(
             f"the object would be {size_m:.4g} m long with unit {unit}, allowed are "
             f"{limits.min_size_m} to {limits.max_size_m} m{advice}",
         )
+
+
+def _mended(mesh: trimesh.Trimesh, repairs: list[str]) -> Manifold | None:
+    """Return the solid of a mesh, if it closes with or without its degenerate and double faces."""
+    merged = trimesh.Trimesh(mesh.vertices, mesh.faces, process=True)
+    # A face without area may be all that closes a seam, so they only go if they are in the way.
+    for tidy in (False, True):
+        done: list[str] = []
+        solid = _solid(_tidy(merged, done) if tidy else merged, done)
+        if solid is not None:
+            repairs += done
+            return solid
+    return None
 
 
 def _tidy(mesh: trimesh.Trimesh, repairs: list[str]) -> trimesh.Trimesh:
