@@ -21,7 +21,12 @@ configfile: "params.yaml"
 
 include: "workflow/rules/common.smk"
 include: "workflow/rules/objects.smk"
+include: "workflow/rules/grasps.smk"
 include: "workflow/rules/replay.smk"
+include: "workflow/rules/labels.smk"
+include: "workflow/rules/renders.smk"
+include: "workflow/rules/learning.smk"
+include: "workflow/rules/tables.smk"
 
 
 wildcard_constraints:

@@ -33,3 +33,9 @@ def settings(section, *left_out):
 def script_hash(name):
     """Hash of a script and all it imports from this project: a rule's `code` parameter."""
     return code_hash(Path(workflow.basedir) / "workflow" / "scripts" / f"{name}.py")
+
+
+def folder_hash(folder):
+    """Hashes of all files below a folder, which Snakemake cannot compare by content itself."""
+    files = sorted(path for path in Path(folder).rglob("*") if path.is_file())
+    return {str(path.relative_to(folder)): file_hash(path) for path in files}

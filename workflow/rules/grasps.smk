@@ -1,0 +1,35 @@
+# Grasps: synthesized after the contact maps, tested in physics.
+
+
+rule synthesize_grasps:
+    input:
+        distance_grid=rules.prepare_object.output.distance_grid,
+        collision=rules.prepare_object.output.collision,
+        properties=rules.prepare_object.output.properties,
+        contact_map=rules.map_contacts.output.contact_map,
+        hand="assets/barrett_hand/barrett_hand.urdf",
+    output:
+        grasps="data/grasps/{object}/{task}.parquet",
+        attempts="data/attempts/{object}/{task}.parquet",
+    log:
+        "logs/synthesize_grasps/{object}_{task}.log",
+    benchmark:
+        "logs/benchmarks/synthesize_grasps/{object}_{task}.tsv"
+    params:
+        synthesis=settings("synthesis"),
+        physics=settings("physics"),
+        # The file above names the hand's shapes, which lie beside it.
+        hand=folder_hash("assets/barrett_hand"),
+        seed=config["seed"],
+        code=script_hash("synthesize_grasps"),
+    message:
+        "Grasping {wildcards.object} for {wildcards.task}"
+    script:
+        "../scripts/synthesize_grasps.py"
+
+
+rule grasps:
+    input:
+        expand(rules.synthesize_grasps.output, object=OBJECTS, task=TASKS),
+    message:
+        "All grasps are synthesized"

@@ -1,0 +1,139 @@
+# From pictures and labels to predictors, their tables, and their runs in MLflow.
+from grasptypes.weights import chosen_weights
+
+MODELS = ["no_task", "task_vector", "task_in_image", "ignores_task"]
+SAMPLES = {"simulated": "data/samples.csv", "published": "data/published_samples.csv"}
+LABELS = config["labels"]
+FROZEN = config["predictors"]["finetune"] == "none"
+
+
+wildcard_constraints:
+    labels="|".join(SAMPLES),
+    model="|".join(MODELS),
+
+
+rule label_published:
+    input:
+        counts="assets/published_labels.csv",
+    output:
+        samples=SAMPLES["published"],
+    log:
+        "logs/label_published.log",
+    params:
+        objects=OBJECTS,
+        tasks=TASKS,
+        published=lambda wildcards: file_hash("assets/published_labels.csv"),
+        code=script_hash("label_published"),
+    message:
+        "Turning the published counts into samples"
+    script:
+        "../scripts/label_published.py"
+
+
+rule prepare_backbone:
+    output:
+        record="data/backbone.json",
+    log:
+        "logs/prepare_backbone.log",
+    params:
+        timeout_s=config["backbone"]["timeout_s"],
+        input_px=config["backbone"]["input_px"],
+        weights=chosen_weights(),
+        code=script_hash("prepare_backbone"),
+    message:
+        "Looking for the backbone's weights"
+    script:
+        "../scripts/prepare_backbone.py"
+
+
+rule extract_features:
+    input:
+        pictures=rules.render_object.output.pictures,
+        backbone=rules.prepare_backbone.output.record,
+    output:
+        features="data/features/{object}.npz",
+    log:
+        "logs/extract_features/{object}.log",
+    benchmark:
+        "logs/benchmarks/extract_features/{object}.tsv"
+    params:
+        settings=settings("features"),
+        tasks=config["tasks"],
+        code=script_hash("extract_features"),
+    message:
+        "Extracting features of {wildcards.object}"
+    script:
+        "../scripts/extract_features.py"
+
+
+rule split_folds:
+    input:
+        poses=expand(rules.render_object.output.poses, object=OBJECTS),
+    output:
+        folds="data/folds.csv",
+    log:
+        "logs/split_folds.log",
+    params:
+        folds=config["folds"]["count"],
+        seed=config["seed"],
+        code=script_hash("split_folds"),
+    message:
+        "Splitting the pictures into folds"
+    script:
+        "../scripts/split_folds.py"
+
+
+def learning_inputs(wildcards):
+    """What a model learns from: features, or pictures if its backbone is trained too."""
+    source = rules.extract_features.output.features if FROZEN else rules.render_object.output.pictures
+    return expand(source, object=OBJECTS)
+
+
+rule train_predictor:
+    input:
+        inputs=learning_inputs,
+        samples=lambda wildcards: SAMPLES[wildcards.labels],
+        folds=rules.split_folds.output.folds,
+        backbone=rules.prepare_backbone.output.record,
+    output:
+        metrics="reports/metrics/{labels}/{model}.csv",
+        curves="reports/loss_curves/{labels}/{model}.csv",
+        predictions="models/{labels}/{model}/predictions.parquet",
+        tensors="models/{labels}/{model}/predictor.safetensors",
+        card="models/{labels}/{model}/predictor.json",
+    log:
+        "logs/train_predictor/{labels}_{model}.log",
+    benchmark:
+        "logs/benchmarks/train_predictor/{labels}_{model}.tsv"
+    params:
+        settings=settings("predictors"),
+        tasks=config["tasks"],
+        seed=config["seed"],
+        code=script_hash("train_predictor"),
+    message:
+        "Training {wildcards.model} on {wildcards.labels} labels"
+    script:
+        "../scripts/train_predictor.py"
+
+
+rule leave_out_objects:
+    input:
+        inputs=learning_inputs,
+        samples=lambda wildcards: SAMPLES[wildcards.labels],
+        folds=rules.split_folds.output.folds,
+        backbone=rules.prepare_backbone.output.record,
+    output:
+        metrics="reports/unseen/{labels}/{model}.csv",
+    log:
+        "logs/leave_out_objects/{labels}_{model}.log",
+    benchmark:
+        "logs/benchmarks/leave_out_objects/{labels}_{model}.tsv"
+    params:
+        settings=settings("predictors"),
+        tasks=config["tasks"],
+        seed=config["seed"],
+        code=script_hash("leave_out_objects"),
+    message:
+        "Testing {wildcards.model} on objects it has not seen ({wildcards.labels} labels)"
+    script:
+        "../scripts/leave_out_objects.py"

@@ -1,0 +1,48 @@
+# Pictures of the objects.
+
+
+rule render_object:
+    input:
+        visual="data/objects/{object}/visual.glb",
+    output:
+        pictures="data/renders/{object}.zip",
+        poses="data/renders/{object}.csv",
+    log:
+        "logs/render_object/{object}.log",
+    benchmark:
+        "logs/benchmarks/render_object/{object}.tsv"
+    params:
+        settings=settings("renders", "sheet"),
+        seed=config["seed"],
+        code=script_hash("render_object"),
+    message:
+        "Taking pictures of {wildcards.object}"
+    script:
+        "../scripts/render_object.py"
+
+
+rule plot_renders:
+    input:
+        pictures=expand(rules.render_object.output.pictures, object=OBJECTS),
+    output:
+        sheet="reports/figures/renders.png",
+    log:
+        "logs/plot_renders.log",
+    benchmark:
+        "logs/benchmarks/plot_renders.tsv"
+    params:
+        views=config["renders"]["sheet"]["views"],
+        columns=config["renders"]["sheet"]["columns"],
+        code=script_hash("plot_renders"),
+    message:
+        "Laying out the sheet of renders"
+    script:
+        "../scripts/plot_renders.py"
+
+
+rule renders:
+    input:
+        expand(rules.render_object.output, object=OBJECTS),
+        rules.plot_renders.output,
+    message:
+        "All pictures are taken"

@@ -1,0 +1,54 @@
+# Tables of results, and the same results as runs in MLflow.
+
+
+rule tabulate_simulated:
+    input:
+        metrics=expand(rules.train_predictor.output.metrics, labels="simulated", model=MODELS),
+        samples=[SAMPLES["simulated"]],
+    output:
+        table="reports/table1.csv",
+        markdown="reports/table1.md",
+        figure="reports/figures/table1.png",
+    log:
+        "logs/tabulate_simulated.log",
+    params:
+        labels=["simulated"],
+        code=script_hash("tabulate_results"),
+    message:
+        "Tabulating the models on simulated labels"
+    script:
+        "../scripts/tabulate_results.py"
+
+
+use rule tabulate_simulated as tabulate_published with:
+    input:
+        metrics=expand(rules.train_predictor.output.metrics, labels="published", model=MODELS),
+        samples=[SAMPLES["published"]],
+    output:
+        table="reports/table1_published.csv",
+        markdown="reports/table1_published.md",
+        figure="reports/figures/table1_published.png",
+    log:
+        "logs/tabulate_published.log",
+    params:
+        labels=["published"],
+        code=script_hash("tabulate_results"),
+    message:
+        "Tabulating the models on published labels"
+
+
+use rule tabulate_simulated as tabulate_unseen with:
+    input:
+        metrics=expand(rules.leave_out_objects.output.metrics, labels=LABELS, model=MODELS),
+        samples=[SAMPLES[labels] for labels in LABELS],
+    output:
+        table="reports/table2.csv",
+        markdown="reports/table2.md",
+        figure="reports/figures/table2.png",
+    log:
+        "logs/tabulate_unseen.log",
+    params:
+        labels=LABELS,
+        code=script_hash("tabulate_results"),
+    message:
+        "Tabulating the models on objects they have not seen"
