@@ -30,6 +30,11 @@ def test_committed_params_meet_the_schema() -> None:
         ({"tasks": {"Bad Name": {"colour_shift": 1}}}, "tasks", "Bad Name"),
         ({"objects": {"scale": 0}}, "objects.scale", "0"),
         ({"objects": {"names": ["mug", "teapot"]}}, "objects.names.1", "utah_teapot"),
+        (
+            {"objects": {"own": {"box": {"file": "box.stl", "unit": "m"}}}},
+            "objects.own.box",
+            "exactly one of density_kg_m3 and mass_kg",
+        ),
     ],
 )
 def test_wrong_value_is_named_in_one_line(change: dict, key: str, allowed: str) -> None:
