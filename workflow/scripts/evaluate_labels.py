@@ -1,6 +1,7 @@
 """Compare the rule's labels with the people's on the published poses."""
 
 import os
+import sys
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -54,6 +55,7 @@ if __name__ == "__main__":
             raise InputError("reports/label_agreement.csv", "", f"cannot be made: {lacking}")
         if lacking:
             log.warning("the tables stay as they are: %s", lacking)
+            sys.stderr.write(f"the tables stay as they are: {lacking}\n")
         else:
             own, scale = snakemake.params.own, snakemake.params.scale
             judged = judge_published(os.environ, own, scale, settings)
