@@ -11,6 +11,9 @@ from grasptypes.hand import kinematics
 
 Array = NDArray[np.float64]
 
+# A joint this far behind where it has been is being driven back: 0.1 mm at the fingertip.
+DRIVEN_BACK_RAD = 0.001
+
 
 class PhysicsSettings(NamedTuple):
     """How grasps are tested; the fields are keys of the `physics` section of params.yaml."""
@@ -20,7 +23,7 @@ class PhysicsSettings(NamedTuple):
     friction: float
     gravity_m_s2: float
     control_steps: int
-    """Time steps between two looks at the motors' torques."""
+    """Time steps between two commands to the motors."""
     fingertip_force_n: float
     """Force at the fingertip up to which the motors close."""
     passive_force_n: float
@@ -66,25 +69,36 @@ class Held(NamedTuple):
 
 
 class Motors:
-    """The hand's motors: they close a joint until it takes their torque, and never let go.
+    """The hand's motors: they close with a limited force, and never let go.
 
-    The worm gears hold a stopped joint with the hand's passive force. Base and tip of a finger
-    advance at the speeds of their coupling; either goes on alone when the other one is stopped.
+    Worm gears keep a joint from being driven back: it withstands the hand's passive force. Base
+    and tip of a finger close at the speeds of their coupling; either goes on alone when the other
+    one is stopped, as the TorqueSwitch lets them.
     """
 
     def __init__(self, angles_rad: Array, settings: PhysicsSettings) -> None:
         levers = _levers_m(angles_rad)
-        step = settings.closing_speed_rad_s * settings.timestep_s * settings.control_steps
-        self.targets_rad = angles_rad.copy()
-        self.limits_nm = settings.passive_force_n * levers
+        closing = np.repeat([0.0, 1.0, kinematics.DISTAL_RATIO], [2, 3, 3])
+        self._speeds_rad_s = settings.closing_speed_rad_s * closing
+        self._interval_s = settings.timestep_s * settings.control_steps
         self._closing_nm = settings.fingertip_force_n * levers
-        self._steps_rad = step * np.repeat([0.0, 1.0, kinematics.DISTAL_RATIO], [2, 3, 3])
+        self._passive_nm = settings.passive_force_n * levers
+        self._reached_rad = angles_rad.copy()
 
-    def advance(self, torques_nm: Array) -> None:
-        """Move the targets (8,) of the joints whose motors feel less than their closing torque."""
-        free = np.abs(torques_nm) < self._closing_nm
-        upper = kinematics.JOINT_LIMITS_RAD[:, 1]
-        self.targets_rad = np.minimum(self.targets_rad + free * self._steps_rad, upper)
+    def drive(self, angles_rad: Array) -> tuple[Array, Array]:
+        """What the motors do at joint angles (8,): speeds (8,) rad/s and torque limits (8,) N m."""
+        moves = self._speeds_rad_s > 0
+        self._reached_rad = np.where(
+            moves, np.maximum(self._reached_rad, angles_rad), self._reached_rad
+        )
+        way = self._reached_rad - angles_rad
+        to_limit = np.maximum(kinematics.JOINT_LIMITS_RAD[:, 1] - angles_rad, 0.0)
+        closing = np.minimum(self._speeds_rad_s, to_limit / self._interval_s)
+        driven_back = ~moves | (way > DRIVEN_BACK_RAD)
+        return (
+            np.where(driven_back, way / self._interval_s, closing),
+            np.where(driven_back, self._passive_nm, self._closing_nm),
+        )
 
 
 def _levers_m(angles: Array) -> Array:

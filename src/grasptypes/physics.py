@@ -175,13 +175,13 @@ class Physics:
         settings, client = self._settings, self._client
         for _ in range(round(time_s / (settings.timestep_s * settings.control_steps))):
             states = pybullet.getJointStates(hand, self._joints, physicsClientId=client)
-            motors.advance(np.array([state[3] for state in states]))
+            speeds, torques = motors.drive(np.array([state[0] for state in states]))
             pybullet.setJointMotorControlArray(
                 hand,
                 self._joints,
-                pybullet.POSITION_CONTROL,
-                targetPositions=motors.targets_rad.tolist(),
-                forces=motors.limits_nm.tolist(),
+                pybullet.VELOCITY_CONTROL,
+                targetVelocities=speeds.tolist(),
+                forces=torques.tolist(),
                 physicsClientId=client,
             )
             for _ in range(settings.control_steps):

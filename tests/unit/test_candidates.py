@@ -1,0 +1,59 @@
+"""Candidates come the person's way or along the normals, and keep out of the object."""
+
+import numpy as np
+from synthesis_cases import PARAMS, ball_grid, ball_person, model
+
+from grasptypes.hand import kinematics
+from grasptypes.synthesis.candidates import CandidateSettings, draw_candidates, frames
+from grasptypes.synthesis.closing import ClosingSettings
+from grasptypes.synthesis.energy import closeness
+
+SETTINGS = CandidateSettings(**PARAMS["synthesis"]["candidates"])._replace(number=120)
+CLOSING = ClosingSettings(**PARAMS["synthesis"]["closing"])
+
+
+def drawn(person, **changes):
+    settings = SETTINGS._replace(**changes)
+    draw = np.random.default_rng(3)
+    return draw_candidates(model(), ball_grid(), person, settings, CLOSING, draw)
+
+
+def test_frames_are_rotations_that_look_along_the_approach() -> None:
+    draw = np.random.default_rng(0)
+    approach, side = draw.normal(size=(2, 50, 3))
+    R = frames(approach, side)
+    np.testing.assert_allclose(R @ np.swapaxes(R, 1, 2), np.tile(np.eye(3), (50, 1, 1)), atol=1e-9)
+    np.testing.assert_allclose(np.linalg.det(R), 1.0)
+    np.testing.assert_allclose(R[..., 2], approach / np.linalg.norm(approach, axis=1)[:, None])
+    assert np.all(np.einsum("ni,ni->n", R[..., 1], side) >= 0)
+
+
+def test_candidates_keep_out_of_the_object_and_within_limits() -> None:
+    hands = drawn(ball_person())
+    poses = hands.T_object_hand[:, None] @ kinematics.link_poses(hands.joint_angles_rad)
+    assert closeness(model(), ball_grid(), poses).penetration_m.max() < 1e-6
+    limits = kinematics.JOINT_LIMITS_RAD
+    assert not kinematics.beyond_limits(hands.joint_angles_rad, limits, 1e-9).any()
+
+
+def test_followers_come_the_persons_way() -> None:
+    person = ball_person()
+    hands = drawn(person, follow_share=1.0)
+    assert np.median(hands.T_object_hand[:, :3, 2] @ person.approach) > 0.95
+    fingers = np.abs(hands.T_object_hand[:, :3, 1] @ person.closing)
+    assert np.median(fingers) > 0.95
+
+
+def test_the_others_come_to_where_the_person_touched() -> None:
+    hands = drawn(ball_person(), follow_share=0.0)
+    above = hands.T_object_hand[:, 2, 3] > -0.02
+    assert above.mean() > 0.9
+    assert (hands.T_object_hand[:, 2, 2] < 0.3).mean() > 0.9
+
+
+def test_precision_grips_keep_the_palm_away() -> None:
+    def distance(grip):
+        return np.linalg.norm(drawn(ball_person(grip)).T_object_hand[:, :3, 3], axis=1)
+
+    assert np.median(distance("tripod")) > np.median(distance("enclose")) + 0.01
+    assert distance("pinch").min() > 0.03

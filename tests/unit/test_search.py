@@ -1,0 +1,61 @@
+"""A session's search: sorted, spread out, repeatable, and better for being refined."""
+
+import numpy as np
+import pytest
+from synthesis_cases import PARAMS, ball_person, ball_thing, model
+
+from grasptypes.seeds import rng
+from grasptypes.synthesis.search import search_session
+from grasptypes.synthesis.settings import search_settings
+
+SETTINGS = search_settings(PARAMS["synthesis"])
+SMALL = SETTINGS._replace(
+    candidates=SETTINGS.candidates._replace(number=80),
+    refinement=SETTINGS.refinement._replace(parents=4, rounds=2),
+)
+
+
+def search(settings=SMALL, session=1):
+    draw = rng("synthesis", "ball", "use", session, 0)
+    return search_session(model(), ball_thing(), ball_person(), settings, draw)
+
+
+@pytest.fixture(scope="module")
+def ranked():
+    return search()
+
+
+def test_best_first_and_no_more_than_the_tries(ranked) -> None:
+    assert 1 <= len(ranked.energy) <= SMALL.ranking.tries
+    assert np.all(np.diff(ranked.energy) >= 0)
+    assert np.isfinite(ranked.terms).all()
+
+
+def test_same_key_same_bytes_and_another_session_differs(ranked) -> None:
+    again = search()
+    assert again.terms.tobytes() == ranked.terms.tobytes()
+    for first, second in zip(ranked.hands, again.hands, strict=True):
+        assert first.tobytes() == second.tobytes()
+    assert search(session=2).terms.tobytes() != ranked.terms.tobytes()
+
+
+def test_tries_differ_from_each_other(ranked) -> None:
+    T = ranked.hands.T_object_hand
+    for index in range(1, len(T)):
+        apart = np.linalg.norm(T[:index, :3, 3] - T[index, :3, 3], axis=1)
+        cosine = (np.einsum("nij,ij->n", T[:index, :3, :3], T[index, :3, :3]) - 1) / 2
+        turned = np.arccos(np.clip(cosine, -1, 1))
+        spread = ranked.hands.joint_angles_rad[:, 0]
+        turned += np.abs(spread[:index] - spread[index])
+        limit = SMALL.ranking.apart_m - 1e-9
+        assert np.all(apart + SMALL.ranking.rotation_length_m * turned >= limit)
+
+
+def test_refinement_lowers_the_energy(ranked) -> None:
+    unrefined = SMALL._replace(refinement=SMALL.refinement._replace(rounds=0))
+    assert ranked.energy[0] < search(unrefined).energy[0]
+
+
+def test_a_hopeless_session_still_has_a_grasp() -> None:
+    strict = SMALL._replace(ranking=SMALL.ranking._replace(min_fingers=4))
+    assert len(search(strict).energy) >= 1
