@@ -68,7 +68,7 @@ def draw_distribution(table: pd.DataFrame, types: tuple[str, ...], title: str) -
     left.set_xlabel("share of the grasps: ours above, published below (pale)")
     figure.legend(*left.get_legend_handles_labels(), loc="outside upper center", ncols=6)
     _draw_totals(right, table, types)
-    right.set_title(title, fontsize="medium")
+    right.set_title(title.replace("; ", "\n"), fontsize="small")
     return figure
 
 
@@ -81,7 +81,7 @@ def _draw_totals(axes: Axes, table: pd.DataFrame, types: tuple[str, ...]) -> Non
     pale = axes.bar(places + 0.2, published, 0.38, color=colours, alpha=0.55)
     axes.bar_label(bars, fontsize="small")
     axes.bar_label(pale, fontsize="small")
-    axes.set_xticks(places, [name.replace(" ", "\n") for name in types])
+    axes.set_xticks(places, [name.replace(" ", "\n") for name in types], fontsize="x-small")
     axes.set_ylabel("grasps: ours left, published right (pale)")
 
 
