@@ -33,3 +33,25 @@ rule grasps:
         expand(rules.synthesize_grasps.output, object=OBJECTS, task=TASKS),
     message:
         "All grasps are synthesized"
+
+
+rule plot_grasps:
+    input:
+        grasps=expand(rules.synthesize_grasps.output.grasps, object=OBJECTS, task=TASKS),
+        visuals=expand(rules.prepare_object.output.visual, object=OBJECTS),
+    output:
+        sheet="reports/figures/gallery.png",
+    log:
+        "logs/plot_grasps.log",
+    benchmark:
+        "logs/benchmarks/plot_grasps.tsv"
+    params:
+        names=[(name, task) for name in OBJECTS for task in TASKS],
+        objects=OBJECTS,
+        renders=settings("renders", "views", "sheet"),
+        settings=settings("gallery"),
+        code=script_hash("plot_grasps"),
+    message:
+        "Drawing the gallery of grasps"
+    script:
+        "../scripts/plot_grasps.py"

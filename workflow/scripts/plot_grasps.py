@@ -1,0 +1,48 @@
+"""Draw the best grasp of every object and task on one sheet."""
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from grasptypes.contact_pictures import contact_sheet, studio_of
+from grasptypes.files import write_bytes
+from grasptypes.gallery import best_grasp, grasp_picture
+from grasptypes.grasps import GRASP_SCHEMA
+from grasptypes.jobs import job
+from grasptypes.renderer import Camera, png_bytes
+from grasptypes.scene import load_parts
+from grasptypes.tables import read_table
+
+
+def plot_grasps(
+    names: Sequence[tuple[str, str]],
+    tables: Sequence[str | Path],
+    visuals: Mapping[str, str | Path],
+    sheet: str | Path,
+    renders: Mapping[str, Any],
+    params: Mapping[str, Any],
+) -> None:
+    """Draw one grasp of each (object, task) of `names`, whose tables come in the same order."""
+    pictures = {}
+    studio = studio_of(renders, params["size_px"])
+    with Camera(studio) as camera:
+        for (name, task), path in zip(names, tables, strict=True):
+            grasp = best_grasp(read_table(path, GRASP_SCHEMA))
+            if grasp is not None:
+                parts = load_parts(visuals[name])
+                picture = grasp_picture(parts, *grasp, camera, params["elevation_rad"])
+                pictures[f"{name}, {task}"] = picture
+    whole = contact_sheet(pictures, params["columns"], params["tile_px"])
+    write_bytes(sheet, png_bytes(whole, studio.png_compression))
+
+
+if __name__ == "__main__":
+    with job(snakemake.log):
+        plot_grasps(
+            [tuple(name) for name in snakemake.params.names],
+            snakemake.input.grasps,
+            dict(zip(snakemake.params.objects, snakemake.input.visuals, strict=True)),
+            snakemake.output.sheet,
+            snakemake.params.renders,
+            snakemake.params.settings,
+        )
