@@ -38,16 +38,18 @@ def split(views: Mapping[str, int], folds: int, seed: int) -> pd.DataFrame:
     Raises:
         InputError: an object has fewer pictures than there are folds.
     """
-    rows = []
-    for position, (name, count) in enumerate(sorted(views.items())):
+    rows: list[pd.DataFrame] = []
+    before = 0
+    for name, count in sorted(views.items()):
         if count < folds:
             raise InputError(
                 "params.yaml",
                 "folds.count",
                 f"{folds} folds need as many views; {name} has {count}",
             )
-        # The start moves on from object to object, so that odd pictures do not pile up in fold 0.
-        fold = (np.arange(count) + position) % folds
+        # Counted on from object to object, so that odd pictures do not pile up in fold 0.
+        fold = (before + np.arange(count)) % folds
+        before += count
         order = rng("folds", name, seed).permutation(count)
         rows.append(pd.DataFrame({"object": name, "view": order, "fold": fold}))
     return pd.concat(rows).sort_values(["object", "view"], ignore_index=True)

@@ -10,6 +10,7 @@ from torch import Tensor, nn
 
 from grasptypes.seeds import seed
 
+OUTPUT_START = 0.1  # size of the last layer's random start, relative to He's
 LAYERS = 4  # fully connected layers of the head (paper, section III-D)
 
 
@@ -92,6 +93,9 @@ class Heads(nn.Module):
             start = [torch.randn(inputs, outputs, generator=g) for g in generators]
             self.weights.append(nn.Parameter(torch.stack(start) * (2 / inputs) ** 0.5))
             self.biases.append(nn.Parameter(torch.zeros(len(keys), 1, outputs)))
+        # Heads start close to no opinion; large first answers take most of training to unlearn.
+        with torch.no_grad():
+            self.weights[-1] *= OUTPUT_START
 
     def forward(self, features: Tensor, task: Tensor | None = None) -> Tensor:
         """Logits (K, B, outputs) of K heads.

@@ -17,6 +17,9 @@ from scipy.spatial.transform import Rotation
 
 from grasptypes.errors import InputError
 
+# Relative luminance of linear RGB (ITU-R BT.709).
+_LUMINANCE = np.array([0.2126, 0.7152, 0.0722])
+
 
 @dataclass(frozen=True)
 class Part:
@@ -49,7 +52,7 @@ def load_parts(path: str | Path) -> list[Part]:
     """
     try:
         scene = trimesh.load_scene(path, process=False)
-    except (OSError, ValueError, KeyError, NotImplementedError) as error:
+    except (OSError, ValueError, LookupError, TypeError, NotImplementedError) as error:
         raise InputError(path, "", f"cannot be read as a mesh: {error}") from error
     grouped: dict[tuple[float, ...], list[trimesh.Trimesh]] = {}
     for node in scene.graph.nodes_geometry:
@@ -89,14 +92,24 @@ def _part(material: tuple[float, ...], meshes: Sequence[trimesh.Trimesh]) -> Par
 
 
 def recolour(parts: Sequence[Part], amount: float, rng: np.random.Generator) -> list[Part]:
-    """The parts with each colour moved towards a random one.
+    """The parts with each colour moved towards a random one of the same luminance.
+
+    Brightness is kept, since it is by brightness that a picture can show its task.
 
     Args:
         amount: 0 keeps the materials' colours, 1 replaces them.
     """
-    colours = [colorsys.hsv_to_rgb(*rng.uniform((0, 0, 0.05), (1, 0.9, 0.9))) for _ in parts]
+    colours = []
+    for part in parts:
+        luminance = float(_LUMINANCE @ part.base_colour)
+        colour = np.array(colorsys.hsv_to_rgb(*rng.uniform((0, 0.1, 1), (1, 0.9, 1))))
+        colour *= luminance / (_LUMINANCE @ colour)
+        # Where a channel would exceed white, the colour is mixed with grey until it does not.
+        excess = colour.max() - luminance
+        share = min(1.0, (1 - luminance) / excess) if excess > 0 else 0.0
+        colours.append(luminance + share * (colour - luminance))
     return [
-        replace(part, base_colour=(1 - amount) * part.base_colour + amount * np.array(colour))
+        replace(part, base_colour=(1 - amount) * part.base_colour + amount * colour)
         for part, colour in zip(parts, colours, strict=True)
     ]
 

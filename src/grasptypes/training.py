@@ -149,16 +149,16 @@ class _Data:
 
 def _principal(features: Tensor, schedule: Schedule) -> tuple[Tensor, Tensor]:
     """Centre (F,) and projection (F, components) onto the leading principal directions."""
-    centre, spread = features.mean(dim=0), features.std(dim=0) + features.std() / 100
-    scaled = (features - centre) / spread
-    variances, directions = torch.linalg.eigh(scaled.T @ scaled / len(features))
+    centre = features.mean(dim=0)
+    centred = features - centre
+    variances, directions = torch.linalg.eigh(centred.T @ centred / len(features))
     count = min(schedule.components, len(features) - 1, features.shape[1])
     variances, directions = variances[-count:].clamp_min(1e-9), directions[:, -count:]
     scales = variances ** (-schedule.whitening / 2)
     overall = (variances * scales**2).mean().sqrt()
     # The sign of an eigenvector is arbitrary; fix it, so that no library decides it.
     signs = directions.gather(0, directions.abs().argmax(dim=0, keepdim=True)).sign()
-    return centre, directions * signs * scales / overall / spread[:, None]
+    return centre, directions * signs * scales / overall
 
 
 def _descend(

@@ -1,0 +1,65 @@
+"""A small learning problem with an answer: features that show the object, or also the task."""
+
+from __future__ import annotations
+
+import numpy as np
+import pandas as pd
+
+from grasptypes.examples import Examples, assemble
+from grasptypes.features import NO_TASK
+from grasptypes.finetuning import FineTuning
+from grasptypes.folds import split
+from grasptypes.predictor import VARIANTS
+from grasptypes.protocol import Recipe
+from grasptypes.samples import COUNTS, samples_from_counts
+from grasptypes.training import Schedule
+
+TASKS = {"use": {"colour_shift": 10}, "handoff": {"colour_shift": -10}, "show": {"colour_shift": 0}}
+OBJECTS = ("apple", "mug", "pan", "knife")
+VIEWS = 20
+SCHEDULE = Schedule(
+    hidden=(32, 24, 16),
+    components=12,
+    whitening=0.5,
+    epochs=80,
+    batch=32,
+    learning_rate=0.02,
+    warm_up=0.25,
+    weight_decay=0.01,
+    dropout=0.0,
+    probability_weight=2.0,
+)
+TUNING = FineTuning("none", last_blocks=1, learning_rate=1e-4, epochs=2, batch=8)
+RECIPE = Recipe(SCHEDULE, TUNING)
+
+
+def samples() -> pd.DataFrame:
+    """Labels of which every (object, task) has another, two or three types each."""
+    rows = []
+    for i, name in enumerate(OBJECTS):
+        for j, task in enumerate(TASKS):
+            counts = np.zeros(6, dtype=int)
+            counts[[i, (i + 1 + j) % 6, 5 if j == 2 else i]] = 1 + j
+            rows.append({"object": name, "task": task, **dict(zip(COUNTS, counts, strict=True))})
+    return samples_from_counts(pd.DataFrame(rows))
+
+
+def folds() -> pd.DataFrame:
+    """Four folds over 20 views an object."""
+    return split(dict.fromkeys(OBJECTS, VIEWS), 4, seed=0)
+
+
+def features() -> dict[str, dict[str, np.ndarray]]:
+    """Object to encoding to (20, 24): a direction an object and one a task, with noise."""
+    rng = np.random.default_rng(0)
+    out = {}
+    for i, name in enumerate(OBJECTS):
+        base = rng.normal(scale=0.1, size=(VIEWS, 24)) + 2 * np.eye(24)[i]
+        shifts = {NO_TASK: 0 * base[0]} | {t: np.eye(24)[10 + j] for j, t in enumerate(TASKS)}
+        out[name] = {e: (base + shift).astype(np.float32) for e, shift in shifts.items()}
+    return out
+
+
+def examples(model: str) -> Examples:
+    """The problem as a variant sees it."""
+    return assemble(VARIANTS[model], features(), samples(), folds(), list(TASKS))
