@@ -34,8 +34,12 @@ wildcard_constraints:
     task="|".join(TASKS),
 
 
-
 rule all:
     default_target: True
     input:
-        rules.objects.input,
+        rules.tabulate_simulated.output,
+        rules.tabulate_published.output,
+        rules.tabulate_unseen.output,
+        rules.compare_distribution.output,
+        rules.plot_contact_maps.output,
+        rules.plot_renders.output,

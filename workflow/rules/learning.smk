@@ -85,7 +85,9 @@ rule split_folds:
 
 def learning_inputs(wildcards):
     """What a model learns from: features, or pictures if its backbone is trained too."""
-    source = rules.extract_features.output.features if FROZEN else rules.render_object.output.pictures
+    source = (
+        rules.extract_features.output.features if FROZEN else rules.render_object.output.pictures
+    )
     return expand(source, object=OBJECTS)
 
 
@@ -137,3 +139,18 @@ rule leave_out_objects:
         "Testing {wildcards.model} on objects it has not seen ({wildcards.labels} labels)"
     script:
         "../scripts/leave_out_objects.py"
+
+
+rule features:
+    input:
+        expand(rules.extract_features.output, object=OBJECTS),
+    message:
+        "All features are extracted"
+
+
+rule predictors:
+    input:
+        expand(rules.train_predictor.output, labels=LABELS, model=MODELS),
+        expand(rules.leave_out_objects.output, labels=LABELS, model=MODELS),
+    message:
+        "All predictors are trained and tested"

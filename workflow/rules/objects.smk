@@ -99,3 +99,28 @@ rule compare_shapes:
         "Comparing the objects with reference meshes"
     script:
         "../scripts/compare_shapes.py"
+
+
+rule plot_contact_maps:
+    input:
+        contact_maps=expand(rules.map_contacts.output.contact_map, object=OBJECTS, task=TASKS),
+        surfaces=expand(rules.prepare_object.output.surface, object=OBJECTS),
+    output:
+        pictures=expand(
+            "reports/figures/contact_maps/{object}_{task}.png", object=OBJECTS, task=TASKS
+        ),
+        sheet="reports/figures/contact_maps.png",
+    log:
+        "logs/plot_contact_maps.log",
+    benchmark:
+        "logs/benchmarks/plot_contact_maps.tsv"
+    params:
+        names=[(name, task) for name in OBJECTS for task in TASKS],
+        objects=OBJECTS,
+        renders=settings("renders", "views", "sheet"),
+        settings=settings("contact_pictures"),
+        code=script_hash("plot_contact_maps"),
+    message:
+        "Drawing the contact maps"
+    script:
+        "../scripts/plot_contact_maps.py"

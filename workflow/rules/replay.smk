@@ -25,3 +25,30 @@ rule replay_grasps:
         "Replaying the published hand poses"
     script:
         "../scripts/replay_grasps.py"
+
+
+# Not part of any other target: what it finds was taken into assets/affinities.csv.
+rule derive_affinities:
+    input:
+        surfaces=expand(rules.prepare_object.output.surface, object=OBJECTS),
+        published=published_data("GRASPTYPES_PUBLISHED_CSV"),
+        references=published_data("GRASPTYPES_REFERENCE_MESHES", ".stl"),
+    output:
+        evidence="reports/contact_evidence/grasps.csv",
+        summary="reports/contact_evidence/summary.csv",
+        pattern="reports/contact_evidence/pattern.csv",
+    log:
+        "logs/derive_affinities.log",
+    benchmark:
+        "logs/benchmarks/derive_affinities.tsv"
+    params:
+        published=os.environ.get("GRASPTYPES_PUBLISHED_CSV", ""),
+        meshes=os.environ.get("GRASPTYPES_REFERENCE_MESHES", ""),
+        objects=OBJECTS,
+        scale=config["replay"]["object_scale"],
+        settings=config["contact_evidence"],
+        code=script_hash("derive_affinities"),
+    message:
+        "Deriving where hands touch from the published poses"
+    script:
+        "../scripts/derive_affinities.py"

@@ -21,6 +21,6 @@ if __name__ == "__main__":
         split_folds(
             snakemake.input.poses,
             snakemake.output.folds,
-            snakemake.params.count,
+            snakemake.params.folds,
             snakemake.params.seed,
         )
