@@ -6,12 +6,13 @@ SHELL := /bin/bash
 PYTHON ?= python3
 VENV ?= .venv
 JOBS ?= 2
+UI_PORT ?= 5057
 BIN := $(abspath $(VENV))/bin
 export PATH := $(BIN):$(PATH)
 export DVC_NO_ANALYTICS := 1
 export MLFLOW_DISABLE_TELEMETRY := true
 
-.PHONY: help setup table1 demo test lint format lock clean
+.PHONY: help setup table1 demo test lint format doctor publish ui report clean lock
 
 help: ## list the targets
 	@awk -F ':.*## ' '/^[a-z0-9-]+:.*## / {printf "  make %-12s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -37,6 +38,21 @@ lint: setup ## style, types and workflow checks
 
 format: setup ## rewrite files in the project's style
 	ruff check --fix . && ruff format . && snakefmt Snakefile workflow
+
+doctor: setup ## find results edited by hand and settings that would spoil them
+	python -m grasptypes.doctor
+
+publish: setup ## show finished results in MLflow; adds nothing that is there already
+	python -m grasptypes.publishing
+
+ui: publish ## the MLflow UI on 127.0.0.1, few processes
+	@echo "runs: http://127.0.0.1:$(UI_PORT)/#/experiments/1/runs?workflowType=machine_learning"
+	MLFLOW_SERVER_ENABLE_JOB_EXECUTION=false mlflow ui --backend-store-uri sqlite:///$(CURDIR)/mlflow.db \
+	    --host 127.0.0.1 --port $(UI_PORT) --workers 1
+
+report: setup ## the results as one HTML page that opens offline: build/report.html
+	@mkdir -p build
+	snakemake --report build/report.html
 
 clean: ## remove what can be rebuilt outside the data: logs, demo, caches
 	rm -rf build logs .pytest_cache .ruff_cache .mypy_cache

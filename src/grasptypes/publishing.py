@@ -1,0 +1,115 @@
+"""Show finished results in MLflow. Files are the truth: the store can be rebuilt at any time.
+
+``python -m grasptypes.publishing`` publishes what the current folder holds; doing it again adds
+nothing.
+"""
+
+from __future__ import annotations
+
+import logging
+import subprocess
+import sys
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import grasptypes.errors
+from grasptypes.errors import InputError
+from grasptypes.features import read_pictures
+from grasptypes.learning_inputs import read_backbone_record, recorded_weights
+from grasptypes.params import read_yaml
+from grasptypes.predictor_files import read_card
+from grasptypes.run_records import Finished, file_digest, run_record, serving_requirements
+from grasptypes.tracking import LoggedModel, RunRecord, Store, publish
+
+logger = logging.getLogger(__name__)
+
+# What every run tells of the data it was made from.
+VERSIONED = ("dvc.lock", "data/samples.csv", "data/published_samples.csv", "data/folds.csv")
+
+
+def finished_models(root: Path) -> list[Finished]:
+    """Every model and label source whose files are all there, in the order of their names."""
+    found = []
+    for card in sorted(root.glob("models/*/*/predictor.json")):
+        name = Path(*card.parts[-3:-1])
+        metrics = root / "reports/metrics" / name.with_suffix(".csv")
+        curves = root / "reports/loss_curves" / name.with_suffix(".csv")
+        files = Finished(metrics, curves, card.with_name("predictor.safetensors"), card)
+        if metrics.is_file() and curves.is_file() and files.tensors.is_file():
+            found.append(files)
+    return found
+
+
+def version_tags(root: Path) -> dict[str, str]:
+    """The commit, whether the checkout differs from it, and checksums of the data."""
+    tags = {
+        f"sha256.{name}": file_digest(root / name) for name in VERSIONED if (root / name).is_file()
+    }
+    commit = _git(root, "rev-parse", "HEAD")
+    if commit:
+        tags["mlflow.source.git.commit"] = commit
+        tags["git.dirty"] = str(bool(_git(root, "status", "--porcelain", "--untracked-files=no")))
+    return tags
+
+
+def publish_runs(
+    finished: Sequence[Finished], root: Path, tags: Mapping[str, str], params: Mapping[str, Any]
+) -> int:
+    """Upsert a parent run for each finished model, its folds below it, and its predictor.
+
+    Args:
+        params: the whole of params.yaml.
+
+    Returns:
+        how many runs are new.
+    """
+    pictures = min((root / "data/renders").glob("*.zip"))
+    weights = recorded_weights(read_backbone_record(root / "data/backbone.json"))
+    example = read_pictures(pictures)[:1]
+    records: list[RunRecord] = []
+    models: dict[str, tuple[str, LoggedModel]] = {}
+    for files in finished:
+        record = run_record(files, params["predictors"], tags)
+        card = read_card(files.card)
+        records.append(record)
+        artifacts = {"tensors": files.tensors, "card": files.card, "weights": weights.path}
+        models[record.key] = (
+            file_digest(files.tensors),
+            LoggedModel(
+                f"{card.labels}_{card.model}",
+                artifacts,
+                Path(grasptypes.errors.__file__).parent,
+                serving_requirements(),
+                example,
+                card.tasks[0],
+                len(card.types),
+            ),
+        )
+    settings = params["tracking"]
+    return publish(Store(settings["database"], settings["experiment"]), records, models)
+
+
+def _git(root: Path, *arguments: str) -> str:
+    """What git prints; empty outside a checkout."""
+    command = ["git", "-C", str(root), *arguments]
+    return subprocess.run(command, capture_output=True, text=True, check=False).stdout.strip()
+
+
+def main() -> None:
+    """Publish the current folder's models; bad input ends with one line."""
+    logging.basicConfig(level=logging.INFO, format="%(message)s")
+    root = Path.cwd()
+    try:
+        params = read_yaml(root / "params.yaml")
+        finished = finished_models(root)
+        if not finished:
+            raise InputError("models", "", "holds no finished predictor; run snakemake first")
+        new = publish_runs(finished, root, version_tags(root), params)
+    except InputError as error:
+        sys.exit(f"error: {error}")
+    logger.info("%s: %d models, %d new runs", params["tracking"]["database"], len(finished), new)
+
+
+if __name__ == "__main__":
+    main()
