@@ -1,7 +1,7 @@
 from pathlib import Path
 
 import pytest
-
+from filelock import FileLock
 from repository import Repository
 
 
@@ -15,3 +15,27 @@ def fresh(tmp_path_factory: pytest.TempPathFactory) -> Repository:
 def repository(fresh: Repository, tmp_path: Path) -> Repository:
     """A copy of the small configuration that a test may change."""
     return fresh.copy(tmp_path / "repository")
+
+
+@pytest.fixture(scope="session")
+def complete(tmp_path_factory: pytest.TempPathFactory) -> Repository:
+    """The small configuration, computed by Snakemake and recorded by DVC; not to be changed.
+
+    Test processes share one: the first builds it, the others wait.
+    """
+    shared = tmp_path_factory.getbasetemp().parent
+    with FileLock(shared / "complete.lock"):
+        repository = Repository(shared / "complete")
+        if not (shared / "complete.done").exists():
+            repository = Repository.create(shared / "complete")
+            repository.snakemake("all")
+            repository.dvc("repro")
+            repository.commit("Results")
+            (shared / "complete.done").touch()
+    return repository
+
+
+@pytest.fixture
+def changed(complete: Repository, tmp_path: Path) -> Repository:
+    """A copy of the computed repository that a test may change."""
+    return complete.copy(tmp_path / "repository")

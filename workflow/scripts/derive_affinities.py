@@ -1,7 +1,5 @@
 """Derive where the published grasps hold the objects: the evidence behind assets/affinities.csv."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any

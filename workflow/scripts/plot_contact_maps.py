@@ -1,7 +1,5 @@
 """Draw the population's contact maps of all objects and tasks, and one sheet of them all."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
