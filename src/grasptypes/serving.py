@@ -24,10 +24,10 @@ class GraspTypePredictor(PythonModel):
         weights = weights_file(backbone, "model", artifacts["weights"])
         self._predictor = load_predictor(artifacts["tensors"], artifacts["card"], weights)
 
-    def predict(
+    def predict(  # type: ignore[no-untyped-def]  # MLflow takes a hint here as a schema
         self,
         context: PythonModelContext,
-        model_input: dict[str, np.ndarray],
+        model_input,
         params: dict[str, Any] | None = None,
     ) -> dict[str, np.ndarray]:
         """Softmax and sigmoid of each picture's logits.
