@@ -12,7 +12,8 @@ from pathlib import Path
 
 import numpy as np
 import trimesh
-from scipy.ndimage import gaussian_filter, zoom
+from PIL import Image
+from scipy.ndimage import gaussian_filter
 from scipy.spatial.transform import Rotation
 
 from grasptypes.errors import InputError
@@ -195,9 +196,13 @@ def ground_light(
     column = cells / 2 + scale * shadow[:, 0] / -shadow[:, 2]
     row = cells / 2 - scale * shadow[:, 1] / -shadow[:, 2]
     weight = np.exp(-fading * height_m / height_m.max())
-    bounds = [(-cells, 2 * cells)] * 2
-    counts = np.histogram2d(row, column, bins=3 * cells, range=bounds, weights=weight)[0]
-    blurred = gaussian_filter(counts, softness_px / 4)[cells : 2 * cells, cells : 2 * cells]
+    # A margin as wide as the raster keeps the shadow of what lies outside the picture.
+    place = np.clip(np.floor([row, column]).astype(int) + cells, 0, 3 * cells - 1)
+    counts = np.bincount(place[0] * 3 * cells + place[1], weight, (3 * cells) ** 2)
+    raster = counts.reshape(3 * cells, 3 * cells).astype(np.float32)
+    raster[[0, -1]] = raster[:, [0, -1]] = 0  # where everything further away was put
+    blurred = gaussian_filter(raster, softness_px / 4)[cells : 2 * cells, cells : 2 * cells]
     usual = float(blurred.sum() / max((blurred > blurred.max() / 10).sum(), 1)) + 1e-9
     light = 1 - strength * (1 - np.exp(-2.0 * blurred / usual))
-    return zoom(light, size_px / cells, order=1, grid_mode=True, mode="nearest").astype(np.float32)
+    coarse = Image.fromarray(light.astype(np.float32))
+    return np.asarray(coarse.resize((size_px, size_px), Image.Resampling.BILINEAR))
