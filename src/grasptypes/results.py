@@ -226,4 +226,8 @@ def _spread(mean: float, deviation: float) -> str:
 
 
 def _joined(values: Sequence[float]) -> str:
-    return " / ".join(f"{value:.3f}".rstrip("0") for value in values if not np.isnan(value))
+    return " / ".join(
+        f"{value:.2f}" if value == round(value, 2) else f"{value:.3f}"
+        for value in values
+        if not np.isnan(value)
+    )
