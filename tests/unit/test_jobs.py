@@ -10,9 +10,14 @@ def test_bad_input_is_one_line_and_status_1(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     log = tmp_path / "logs" / "job.log"
-    with pytest.raises(SystemExit) as raised, job([str(log)]) as logger:
-        logger.info("started")
-        raise InputError("mesh.stl", "vertices", "NaN at\nrow 3")
+
+    def fail() -> None:
+        with job([str(log)]) as logger:
+            logger.info("started")
+            raise InputError("mesh.stl", "vertices", "NaN at\nrow 3")
+
+    with pytest.raises(SystemExit) as raised:
+        fail()
     assert raised.value.code == 1
     assert capsys.readouterr().err == "error: mesh.stl: vertices: NaN at row 3\n"
     assert log.read_text().splitlines() == [
