@@ -20,6 +20,9 @@ METALLIC = {"aluminium": 0.6}
 ROUGHNESS = {"anodised": 0.45, "aluminium": 0.4, "rubber": 0.9}
 # Edges sharper than this stay edges.
 CREASE_RAD = 0.6
+AZIMUTHS = 24
+# What it counts to see a hand from in front, beside seeing it from its side.
+FRONT_MERIT = 0.35
 
 
 def hand_parts(T_object_hand: ArrayLike, joint_angles_rad: ArrayLike) -> list[Part]:
@@ -59,18 +62,22 @@ def grasp_picture(
     parts = [*thing, *hand_parts(T_object_hand, joint_angles_rad)]
     scene, node, _ = camera.scene(parts)
     points = np.concatenate([part.vertices for part in parts])
-    pose = look_at(points, _azimuth(T_object_hand), elevation_rad, camera.studio)
+    pose = look_at(points, _azimuth(T_object_hand, elevation_rad), elevation_rad, camera.studio)
     scene.set_pose(node, pose)
     return camera.compose(camera.shoot(scene), points, pose)
 
 
-def _azimuth(T_object_hand: Array) -> float:
-    """Direction around the object's z from which the gap between fingers and thumb is open."""
-    across, back = T_object_hand[:3, 0], -T_object_hand[:3, 2]
-    side = across + 0.4 * back
-    if np.hypot(*side[:2]) < 0.5:  # the hand's side is up or down: look from behind it
-        side = back + 0.4 * T_object_hand[:3, 1]
-    return float(np.arctan2(side[1], side[0]))
+def _azimuth(T_object_hand: Array, elevation_rad: float) -> float:
+    """Direction around the object's z from which fingers, thumb and what they hold are seen best.
+
+    That is from the hand's side, and rather from in front than over its back.
+    """
+    angles = np.linspace(-np.pi, np.pi, AZIMUTHS, endpoint=False)
+    flat = np.cos(elevation_rad)
+    height = np.full(AZIMUTHS, np.sin(elevation_rad))
+    views = np.column_stack([flat * np.cos(angles), flat * np.sin(angles), height])
+    merit = np.abs(views @ T_object_hand[:3, 0]) + FRONT_MERIT * (views @ T_object_hand[:3, 2])
+    return float(angles[merit.argmax()])
 
 
 def best_grasp(grasps: pd.DataFrame) -> tuple[Array, Array] | None:

@@ -91,13 +91,13 @@ class Motors:
         self._reached_rad = np.where(
             moves, np.maximum(self._reached_rad, angles_rad), self._reached_rad
         )
-        way = self._reached_rad - angles_rad
-        to_limit = np.maximum(kinematics.JOINT_LIMITS_RAD[:, 1] - angles_rad, 0.0)
-        closing = np.minimum(self._speeds_rad_s, to_limit / self._interval_s)
-        driven_back = ~moves | (way > DRIVEN_BACK_RAD)
+        stop = kinematics.JOINT_LIMITS_RAD[:, 1]
+        way = np.minimum(self._reached_rad, stop) - angles_rad
+        closing = np.minimum(self._speeds_rad_s, (stop - angles_rad) / self._interval_s)
+        withstands = ~moves | (way > DRIVEN_BACK_RAD) | (angles_rad > stop)
         return (
-            np.where(driven_back, way / self._interval_s, closing),
-            np.where(driven_back, self._passive_nm, self._closing_nm),
+            np.where(withstands, way / self._interval_s, closing),
+            np.where(withstands, self._passive_nm, self._closing_nm),
         )
 
 
