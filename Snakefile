@@ -37,7 +37,9 @@ wildcard_constraints:
 # MLflow shows what the files hold: results never depend on its store being there.
 onsuccess:
     if any(Path("models").glob("*/*/predictor.json")):
-        shell("python -m grasptypes.publishing || echo 'MLflow does not show these results: make publish'")
+        shell(
+            "python -m grasptypes.publishing || echo 'MLflow does not show these results: make publish'"
+        )
 
 
 rule all:
@@ -47,5 +49,6 @@ rule all:
         rules.tabulate_published.output,
         rules.tabulate_unseen.output,
         rules.compare_distribution.output,
+        rules.plot_grasps.output,
         rules.plot_contact_maps.output,
         rules.plot_renders.output,

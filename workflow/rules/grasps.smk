@@ -15,6 +15,8 @@ rule synthesize_grasps:
         "logs/synthesize_grasps/{object}_{task}.log",
     benchmark:
         "logs/benchmarks/synthesize_grasps/{object}_{task}.tsv"
+    conda:
+        "../envs/grasptypes.yaml"
     params:
         synthesis=settings("synthesis"),
         physics=settings("physics"),
@@ -45,6 +47,8 @@ rule plot_grasps:
         "logs/plot_grasps.log",
     benchmark:
         "logs/benchmarks/plot_grasps.tsv"
+    conda:
+        "../envs/grasptypes.yaml"
     params:
         names=[(name, task) for name in OBJECTS for task in TASKS],
         objects=OBJECTS,

@@ -22,6 +22,8 @@ rule evaluate_labels:
         "logs/evaluate_labels.log",
     benchmark:
         "logs/benchmarks/evaluate_labels.tsv"
+    conda:
+        "../envs/grasptypes.yaml"
     params:
         settings=settings("grasp_types"),
         scale=config["replay"]["object_scale"],
@@ -44,6 +46,8 @@ rule label_grasps:
         "logs/label_grasps.log",
     benchmark:
         "logs/benchmarks/label_grasps.tsv"
+    conda:
+        "../envs/grasptypes.yaml"
     params:
         settings=settings("grasp_types", "fitted_on", "softness", "own_frames"),
         code=script_hash("label_grasps"),
@@ -64,6 +68,8 @@ rule compare_distribution:
         "logs/compare_distribution.log",
     benchmark:
         "logs/benchmarks/compare_distribution.tsv"
+    conda:
+        "../envs/grasptypes.yaml"
     params:
         code=script_hash("compare_distribution"),
     message:

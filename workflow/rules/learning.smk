@@ -19,6 +19,8 @@ rule label_published:
         samples=SAMPLES["published"],
     log:
         "logs/label_published.log",
+    conda:
+        "../envs/grasptypes.yaml"
     params:
         objects=OBJECTS,
         tasks=TASKS,
@@ -35,6 +37,8 @@ rule prepare_backbone:
         record="data/backbone.json",
     log:
         "logs/prepare_backbone.log",
+    conda:
+        "../envs/grasptypes.yaml"
     params:
         timeout_s=config["backbone"]["timeout_s"],
         input_px=config["backbone"]["input_px"],
@@ -56,6 +60,8 @@ rule extract_features:
         "logs/extract_features/{object}.log",
     benchmark:
         "logs/benchmarks/extract_features/{object}.tsv"
+    conda:
+        "../envs/grasptypes.yaml"
     params:
         settings=settings("features"),
         tasks=config["tasks"],
@@ -73,6 +79,8 @@ rule split_folds:
         folds="data/folds.csv",
     log:
         "logs/split_folds.log",
+    conda:
+        "../envs/grasptypes.yaml"
     params:
         folds=config["folds"]["count"],
         seed=config["seed"],
@@ -107,6 +115,8 @@ rule train_predictor:
         "logs/train_predictor/{labels}_{model}.log",
     benchmark:
         "logs/benchmarks/train_predictor/{labels}_{model}.tsv"
+    conda:
+        "../envs/grasptypes.yaml"
     params:
         settings=settings("predictors"),
         tasks=config["tasks"],
@@ -130,6 +140,8 @@ rule leave_out_objects:
         "logs/leave_out_objects/{labels}_{model}.log",
     benchmark:
         "logs/benchmarks/leave_out_objects/{labels}_{model}.tsv"
+    conda:
+        "../envs/grasptypes.yaml"
     params:
         settings=settings("predictors"),
         tasks=config["tasks"],

@@ -37,6 +37,8 @@ rule prepare_object:
         "logs/prepare_object/{object}.log",
     benchmark:
         "logs/benchmarks/prepare_object/{object}.tsv"
+    conda:
+        "../envs/grasptypes.yaml"
     params:
         settings=object_settings,
         code=script_hash("prepare_object"),
@@ -57,6 +59,8 @@ rule map_contacts:
         "logs/map_contacts/{object}_{task}.log",
     benchmark:
         "logs/benchmarks/map_contacts/{object}_{task}.tsv"
+    conda:
+        "../envs/grasptypes.yaml"
     params:
         settings=contact_settings,
         seed=config["seed"],
@@ -92,6 +96,8 @@ rule compare_shapes:
         "logs/compare_shapes.log",
     benchmark:
         "logs/benchmarks/compare_shapes.tsv"
+    conda:
+        "../envs/grasptypes.yaml"
     params:
         samples=config["objects"]["comparison"],
         code=script_hash("compare_shapes"),
@@ -114,6 +120,8 @@ rule plot_contact_maps:
         "logs/plot_contact_maps.log",
     benchmark:
         "logs/benchmarks/plot_contact_maps.tsv"
+    conda:
+        "../envs/grasptypes.yaml"
     params:
         names=[(name, task) for name in OBJECTS for task in TASKS],
         objects=OBJECTS,

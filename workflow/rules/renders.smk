@@ -11,6 +11,8 @@ rule render_object:
         "logs/render_object/{object}.log",
     benchmark:
         "logs/benchmarks/render_object/{object}.tsv"
+    conda:
+        "../envs/grasptypes.yaml"
     params:
         settings=settings("renders", "sheet"),
         seed=config["seed"],
@@ -30,6 +32,8 @@ rule plot_renders:
         "logs/plot_renders.log",
     benchmark:
         "logs/benchmarks/plot_renders.tsv"
+    conda:
+        "../envs/grasptypes.yaml"
     params:
         views=config["renders"]["sheet"]["views"],
         columns=config["renders"]["sheet"]["columns"],

@@ -18,6 +18,8 @@ rule replay_grasps:
         "logs/replay_grasps.log",
     benchmark:
         "logs/benchmarks/replay_grasps.tsv"
+    conda:
+        "../envs/grasptypes.yaml"
     params:
         settings=config["replay"],
         code=script_hash("replay_grasps"),
@@ -41,6 +43,8 @@ rule derive_affinities:
         "logs/derive_affinities.log",
     benchmark:
         "logs/benchmarks/derive_affinities.tsv"
+    conda:
+        "../envs/grasptypes.yaml"
     params:
         published=os.environ.get("GRASPTYPES_PUBLISHED_CSV", ""),
         meshes=os.environ.get("GRASPTYPES_REFERENCE_MESHES", ""),

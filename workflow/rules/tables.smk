@@ -11,6 +11,8 @@ rule tabulate_simulated:
         figure="reports/figures/table1.png",
     log:
         "logs/tabulate_simulated.log",
+    conda:
+        "../envs/grasptypes.yaml"
     params:
         labels=["simulated"],
         code=script_hash("tabulate_results"),
