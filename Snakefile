@@ -1,5 +1,7 @@
 # The paper's pipeline, in its order: objects, contact maps, grasps, labels, renders, predictors,
 # tables. `snakemake -j2 reports/table1.csv` is the main job; `snakemake -n` says what is to be done.
+import json
+import os
 import sys
 from pathlib import Path
 

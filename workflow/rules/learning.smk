@@ -1,5 +1,5 @@
 # From pictures and labels to predictors, their tables, and their runs in MLflow.
-from grasptypes.weights import chosen_weights
+from grasptypes.weights import DOWNLOAD_SHA256_START, WEIGHTS_VARIABLE, chosen_weights
 
 MODELS = ["no_task", "task_vector", "task_in_image", "ignores_task"]
 SAMPLES = {"simulated": "data/samples.csv", "published": "data/published_samples.csv"}
@@ -10,6 +10,19 @@ FROZEN = config["predictors"]["finetune"] == "none"
 wildcard_constraints:
     labels="|".join(SAMPLES),
     model="|".join(MODELS),
+
+
+def weights_choice(record="data/backbone.json"):
+    """The user's choice of weights; without one, that of the results at hand.
+
+    So results that were pulled are not computed again for want of the weights they were made with.
+    """
+    if WEIGHTS_VARIABLE in os.environ or not Path(record).is_file():
+        return chosen_weights()
+    found = json.loads(Path(record).read_text())
+    downloaded = found["sha256"].startswith(DOWNLOAD_SHA256_START)
+    by_default = downloaded or found["backbone"] != "mobilenet_v2"
+    return "default" if by_default else found["sha256"][:16]
 
 
 rule label_published:
@@ -42,7 +55,7 @@ rule prepare_backbone:
     params:
         timeout_s=config["backbone"]["timeout_s"],
         input_px=config["backbone"]["input_px"],
-        weights=chosen_weights(),
+        weights=weights_choice(),
         code=script_hash("prepare_backbone"),
     message:
         "Looking for the backbone's weights"
