@@ -1,4 +1,8 @@
-"""Pictures of objects; the only module that imports pyrender and OpenGL."""
+"""Pictures of objects; the only module that imports pyrender and OpenGL.
+
+A process that uses torch as well must import torchvision before it makes a :class:`Camera`: Mesa
+and torch's compiler each bring an LLVM, and the process crashes when torch's comes second.
+"""
 
 from __future__ import annotations
 

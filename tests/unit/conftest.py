@@ -1,0 +1,16 @@
+"""What all unit tests share."""
+
+import importlib
+import sys
+
+import pytest
+
+
+def pytest_collection_finish(session: pytest.Session) -> None:
+    """Load torch's compiler before any test opens OpenGL, if the tests use torch at all.
+
+    Mesa and triton each bring an LLVM; the process crashes when triton's comes second.
+    """
+    if "torch" in sys.modules:
+        importlib.import_module("torchvision")
+        importlib.import_module("torch._dynamo")
