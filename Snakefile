@@ -51,6 +51,7 @@ rule all:
         rules.tabulate_published.output,
         rules.tabulate_unseen.output,
         rules.compare_distribution.output,
+        expand(rules.picture_grasps.output, object=OBJECTS),
         rules.plot_grasps.output,
         rules.plot_contact_maps.output,
         rules.plot_renders.output,

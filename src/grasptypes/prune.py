@@ -22,6 +22,7 @@ OBJECT_FOLDERS = (
     "data/attempts",
     "data/renders",
     "data/features",
+    "data/screenshots",
 )
 TASK_FOLDERS = ("data/contact_maps", "data/grasps", "data/attempts")
 PICTURE_FOLDERS = ("reports/figures/contact_maps", "reports/figures/grasps")

@@ -37,6 +37,31 @@ rule grasps:
         "All grasps are synthesized"
 
 
+rule picture_grasps:
+    input:
+        grasps=lambda wildcards: expand(
+            rules.synthesize_grasps.output.grasps, object=wildcards.object, task=TASKS
+        ),
+        visual=rules.prepare_object.output.visual,
+    output:
+        pictures="data/screenshots/{object}.zip",
+    log:
+        "logs/picture_grasps/{object}.log",
+    benchmark:
+        "logs/benchmarks/picture_grasps/{object}.tsv"
+    conda:
+        "../envs/grasptypes.yaml"
+    params:
+        tasks=TASKS,
+        renders=settings("renders", "views", "sheet"),
+        settings=settings("gallery", "size_px", "tile_px", "columns"),
+        code=script_hash("picture_grasps"),
+    message:
+        "Taking a picture of every grasp of {wildcards.object}"
+    script:
+        "../scripts/picture_grasps.py"
+
+
 rule plot_grasps:
     input:
         grasps=expand(rules.synthesize_grasps.output.grasps, object=OBJECTS, task=TASKS),
@@ -53,9 +78,16 @@ rule plot_grasps:
         names=[(name, task) for name in OBJECTS for task in TASKS],
         objects=OBJECTS,
         renders=settings("renders", "views", "sheet"),
-        settings=settings("gallery"),
+        settings=settings("gallery", "screenshot_px"),
         code=script_hash("plot_grasps"),
     message:
         "Drawing the gallery of grasps"
     script:
         "../scripts/plot_grasps.py"
+
+
+rule screenshots:
+    input:
+        expand(rules.picture_grasps.output, object=OBJECTS),
+    message:
+        "All grasps are pictured"

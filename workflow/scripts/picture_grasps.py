@@ -1,0 +1,59 @@
+"""Take a picture of every grasp of an object, named as the dataset's Image column names it."""
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from grasptypes.contact_pictures import studio_of
+from grasptypes.files import write_bytes, zip_bytes
+from grasptypes.gallery import grasp_picture
+from grasptypes.grasps import GRASP_SCHEMA
+from grasptypes.hand import configuration
+from grasptypes.jobs import job
+from grasptypes.renderer import Camera, png_bytes
+from grasptypes.scene import load_parts
+from grasptypes.tables import read_table
+
+
+def picture_grasps(
+    name: str,
+    tables: Mapping[str, str | Path],
+    visual: str | Path,
+    target: str | Path,
+    renders: Mapping[str, Any],
+    params: Mapping[str, Any],
+) -> None:
+    """Write `<object>_<session>_<task>.png` of each grasp, valid or not, to one archive.
+
+    Args:
+        tables: the grasps of the object `name`, by task.
+    """
+    studio = studio_of(renders, params["screenshot_px"])
+    parts = load_parts(visual)
+    members = {}
+    with Camera(studio) as camera:
+        for task, path in tables.items():
+            for row in read_table(path, GRASP_SCHEMA).itertuples():
+                hand = configuration.unpack(np.asarray(row.hand_configuration, dtype=np.float64))
+                angles_rad = np.asarray(row.joint_angles_rad, dtype=np.float64)
+                picture = grasp_picture(
+                    parts, hand.T_object_hand, angles_rad, camera, params["elevation_rad"]
+                )
+                file_name = f"{name}_{row.session}_{task}.png"
+                members[file_name] = png_bytes(picture, studio.png_compression)
+    write_bytes(target, zip_bytes(members))
+
+
+if __name__ == "__main__":
+    with job(snakemake.log):
+        tasks: Sequence[str] = snakemake.params.tasks
+        picture_grasps(
+            snakemake.wildcards.object,
+            dict(zip(tasks, snakemake.input.grasps, strict=True)),
+            snakemake.input.visual,
+            snakemake.output.pictures,
+            snakemake.params.renders,
+            snakemake.params.settings,
+        )
