@@ -18,6 +18,7 @@ RENDERS = {
     "ground_elevation_rad": 0.4,
     "shadow_strength": 0.5,
     "shadow_softness_px": 6.0,
+    "shadow_fading": 4.0,
     "shadow_points": 100,
     "png_compression": 6,
     "views": 100,
