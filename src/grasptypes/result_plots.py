@@ -45,6 +45,9 @@ def plot_table(table: pd.DataFrame, path: str | Path) -> None:
             _bars(axes, used[used["labels"] == labels], short)
             axes.set_title(title, fontsize=10)
         row[0].set_ylabel(f"{labels} labels")
+    # The panels share their axis: it must reach down to the lowest bar and its spread.
+    lowest = min((used[f"{short}_mean"] - used[f"{short}_sd"]).min() for short in MEASURES)
+    panels[0][0].set_ylim(max(0.0, np.floor(lowest * 10) / 10), 1.02)
     handles, names = panels[0][0].get_legend_handles_labels()
     figure.legend(handles, names, loc="lower center", ncols=3, frameon=False, fontsize=9)
     figure.tight_layout(rect=(0, 0.08 / len(sources), 1, 1))
@@ -99,8 +102,6 @@ def _bars(axes: Axes, rows: pd.DataFrame, short: str) -> None:
             linestyles="dashed",
             label="ceiling of the labels",
         )
-    lowest = np.nanmin([rows[f"{short}_mean"].min(), rows[f"paper_{short}"].min()])
-    axes.set_ylim(max(0.0, np.floor(lowest * 10 - 1) / 10), 1.02)
     axes.set_xticks(
         place, [LABELLED[model] for model in rows["model"]], rotation=25, ha="right", fontsize=8
     )

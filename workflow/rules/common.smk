@@ -5,6 +5,7 @@ from grasptypes.guard import check_cache_links
 from grasptypes.own_objects import check_every_hold, check_own_objects, measured_map
 from grasptypes.params import read_yaml, validate_params
 from grasptypes.provenance import FileHash, code_hash
+from grasptypes.weights import DOWNLOAD_SHA256_START, WEIGHTS_VARIABLE, chosen_weights
 
 SCHEMA = read_yaml(Path(workflow.basedir) / "workflow" / "schemas" / "params.schema.yaml")
 
@@ -39,3 +40,51 @@ def folder_hash(folder):
     """Hashes of all files below a folder, which Snakemake cannot compare by content itself."""
     files = sorted(path for path in Path(folder).rglob("*") if path.is_file())
     return {str(path.relative_to(folder)): file_hash(path) for path in files}
+
+
+def object_settings(wildcards):
+    """What a catalogue object or an own one is made with; its contact maps are not."""
+    own = config["objects"]["own"].get(wildcards.object)
+    if own is None:
+        return settings("objects", "names", "own", "import", "comparison")
+    block = {key: value for key, value in own.items() if key != "contact_maps"}
+    return settings("objects", "names", "scale", "comparison") | {"own": block}
+
+
+def measured_input(wildcards):
+    """The contact map measured for an own object and task; most have none."""
+    return measured_map(config["objects"], wildcards.object, wildcards.task) or []
+
+
+def contact_settings(wildcards):
+    """What a contact map is made with: the rows of the affinity table or the measured map."""
+    if measured_input(wildcards):
+        unit = config["objects"]["own"][wildcards.object]["unit"]
+        return settings("contact_maps", "affinities", "population", "tries") | {"unit": unit}
+    holds = HOLDS[wildcards.object, wildcards.task]
+    return settings("contact_maps", "measured") | {"holds": holds}
+
+
+def published_data(variable, suffix=""):
+    """The file, or all files with a suffix below the folder, an environment variable names."""
+    named = os.environ.get(variable, "")
+    return sorted(map(str, Path(named).glob(f"*{suffix}"))) if named and suffix else named or []
+
+
+def without_scan():
+    """Objects that the folder of reference meshes lacks; none if there is no folder."""
+    scans = {Path(path).stem for path in published_data("GRASPTYPES_REFERENCE_MESHES", ".stl")}
+    return [name for name in OBJECTS if name not in scans] if scans else []
+
+
+def weights_choice(record="data/backbone.json"):
+    """The user's choice of weights; without one, that of the results at hand.
+
+    So results that were pulled are not computed again for want of the weights they were made with.
+    """
+    if WEIGHTS_VARIABLE in os.environ or not Path(record).is_file():
+        return chosen_weights()
+    found = json.loads(Path(record).read_text())
+    downloaded = found["sha256"].startswith(DOWNLOAD_SHA256_START)
+    by_default = downloaded or found["backbone"] != "mobilenet_v2"
+    return "default" if by_default else found["sha256"][:16]

@@ -1,12 +1,6 @@
 # Grasp types by rule, the dataset, and how both compare with the published ones.
 
 
-def without_scan():
-    """Objects that the folder of reference meshes lacks; none if there is no folder."""
-    scans = {Path(path).stem for path in published_data("GRASPTYPES_REFERENCE_MESHES", ".stl")}
-    return [name for name in OBJECTS if name not in scans] if scans else []
-
-
 rule evaluate_labels:
     input:
         published=published_data("GRASPTYPES_PUBLISHED_CSV"),

@@ -1,6 +1,4 @@
 # From pictures and labels to predictors, their tables, and their runs in MLflow.
-from grasptypes.weights import DOWNLOAD_SHA256_START, WEIGHTS_VARIABLE, chosen_weights
-
 MODELS = ["no_task", "task_vector", "task_in_image", "ignores_task"]
 SAMPLES = {"simulated": "data/samples.csv", "published": "data/published_samples.csv"}
 LABELS = config["labels"]
@@ -10,19 +8,6 @@ FROZEN = config["predictors"]["finetune"] == "none"
 wildcard_constraints:
     labels="|".join(SAMPLES),
     model="|".join(MODELS),
-
-
-def weights_choice(record="data/backbone.json"):
-    """The user's choice of weights; without one, that of the results at hand.
-
-    So results that were pulled are not computed again for want of the weights they were made with.
-    """
-    if WEIGHTS_VARIABLE in os.environ or not Path(record).is_file():
-        return chosen_weights()
-    found = json.loads(Path(record).read_text())
-    downloaded = found["sha256"].startswith(DOWNLOAD_SHA256_START)
-    by_default = downloaded or found["backbone"] != "mobilenet_v2"
-    return "default" if by_default else found["sha256"][:16]
 
 
 rule label_published:
@@ -104,17 +89,16 @@ rule split_folds:
         "../scripts/split_folds.py"
 
 
-def learning_inputs(wildcards):
-    """What a model learns from: features, or pictures if its backbone is trained too."""
-    source = (
-        rules.extract_features.output.features if FROZEN else rules.render_object.output.pictures
-    )
-    return expand(source, object=OBJECTS)
+# What a model learns from: features, or pictures if its backbone is trained too.
+LEARNING_INPUTS = expand(
+    rules.extract_features.output.features if FROZEN else rules.render_object.output.pictures,
+    object=OBJECTS,
+)
 
 
 rule train_predictor:
     input:
-        inputs=learning_inputs,
+        inputs=LEARNING_INPUTS,
         samples=lambda wildcards: SAMPLES[wildcards.labels],
         folds=rules.split_folds.output.folds,
         backbone=rules.prepare_backbone.output.record,
@@ -143,7 +127,7 @@ rule train_predictor:
 
 rule leave_out_objects:
     input:
-        inputs=learning_inputs,
+        inputs=LEARNING_INPUTS,
         samples=lambda wildcards: SAMPLES[wildcards.labels],
         folds=rules.split_folds.output.folds,
         backbone=rules.prepare_backbone.output.record,

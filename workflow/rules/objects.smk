@@ -1,29 +1,6 @@
 # Objects and where people touch them.
 
 
-def object_settings(wildcards):
-    """What a catalogue object or an own one is made with; its contact maps are not."""
-    own = config["objects"]["own"].get(wildcards.object)
-    if own is None:
-        return settings("objects", "names", "own", "import", "comparison")
-    block = {key: value for key, value in own.items() if key != "contact_maps"}
-    return settings("objects", "names", "scale", "comparison") | {"own": block}
-
-
-def measured_input(wildcards):
-    """The contact map measured for an own object and task; most have none."""
-    return measured_map(config["objects"], wildcards.object, wildcards.task) or []
-
-
-def contact_settings(wildcards):
-    """What a contact map is made with: the rows of the affinity table or the measured map."""
-    if measured_input(wildcards):
-        unit = config["objects"]["own"][wildcards.object]["unit"]
-        return settings("contact_maps", "affinities", "population", "tries") | {"unit": unit}
-    holds = HOLDS[wildcards.object, wildcards.task]
-    return settings("contact_maps", "measured") | {"holds": holds}
-
-
 rule prepare_object:
     input:
         own=lambda wildcards: config["objects"]["own"].get(wildcards.object, {}).get("file", []),

@@ -1,12 +1,6 @@
 # The hand put at the published poses: a check of frames, scale and kinematics.
 
 
-def published_data(variable, suffix=""):
-    """The file, or all files with a suffix below the folder, an environment variable names."""
-    named = os.environ.get(variable, "")
-    return sorted(map(str, Path(named).glob(f"*{suffix}"))) if named and suffix else named or []
-
-
 rule replay_grasps:
     input:
         published=published_data("GRASPTYPES_PUBLISHED_CSV"),
