@@ -77,6 +77,11 @@ class Repository:
     def snakemake(self, *arguments: str) -> str:
         return self.run("snakemake", "-j2", *(arguments or (TARGET,)))
 
+    def planned(self, *targets: str) -> Counter[str]:
+        """The jobs a dry run announces; it shows its table twice."""
+        output = self.run("snakemake", "-n", *targets)
+        return jobs(output[max(output.rfind("Job stats"), 0) :])
+
     def commit(self, message: str) -> None:
         self.git("add", "-A")
         self.git("commit", "-q", "--allow-empty", "-m", message)

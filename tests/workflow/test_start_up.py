@@ -6,11 +6,11 @@ import sys
 from pathlib import Path
 
 import pytest
-from repository import ROOT, Repository, jobs
+from repository import ROOT, Repository
 
 
 def test_the_main_job_is_complete_and_small(fresh: Repository) -> None:
-    planned = jobs(fresh.run("snakemake", "-n", "reports/table1.csv"))
+    planned = fresh.planned("reports/table1.csv")
     assert planned["prepare_object"] == 2
     assert planned["map_contacts"] == 4
     assert planned["synthesize_grasps"] == 4

@@ -3,7 +3,7 @@
 from pathlib import Path
 
 import pytest
-from repository import Repository, jobs
+from repository import Repository
 
 
 def test_a_clone_that_pulls_has_nothing_to_do(changed: Repository, tmp_path: Path) -> None:
@@ -30,7 +30,7 @@ def test_a_changed_parameter_is_noticed_by_both(
     changed: Repository, key: str, value: float, first: str, untouched: str
 ) -> None:
     changed.set_param(key, value)
-    planned = jobs(changed.run("snakemake", "-n", "all"))
+    planned = changed.planned("all")
     assert planned[first] > 0
     assert planned[untouched] == 0
     assert not changed.dvc_is_clean()
@@ -44,7 +44,7 @@ def test_a_changed_module_reruns_what_imports_it_and_a_comment_nothing(
     module.write_text(text + "\n# A remark.\n")
     assert changed.snakemake_is_clean("all")
     module.write_text(text + "\nUNUSED = 1\n")
-    planned = jobs(changed.run("snakemake", "-n", "all"))
+    planned = changed.planned("all")
     assert planned["label_grasps"] == 1
     assert planned["render_object"] == planned["prepare_object"] == 0
     assert not changed.dvc_is_clean()
@@ -58,7 +58,7 @@ def test_touching_every_file_changes_nothing(changed: Repository) -> None:
 
 def test_a_removed_object_leaves_nothing_behind(changed: Repository) -> None:
     changed.set_param("objects.names", ["banana"])
-    planned = jobs(changed.run("snakemake", "-n", "data/samples.csv"))
+    planned = changed.planned("data/samples.csv")
     assert planned["label_grasps"] == 1
     assert planned["prepare_object"] == planned["synthesize_grasps"] == 0
     changed.run("python", "-m", "grasptypes.prune", PYTHONPATH=str(changed.path / "src"))

@@ -12,6 +12,8 @@ rule evaluate_labels:
         table=update("reports/label_agreement.csv"),
         validation=update("reports/label_cross_validation.csv"),
         figure=update("reports/figures/label_confusion.png"),
+        # A clone holds the table, but not from which data: without this it would not be made anew.
+        done=touch("logs/evaluate_labels.done"),
     log:
         "logs/evaluate_labels.log",
     benchmark:
@@ -21,7 +23,6 @@ rule evaluate_labels:
     params:
         settings=settings("grasp_types"),
         scale=config["replay"]["object_scale"],
-        own="data/objects",
         code=script_hash("evaluate_labels"),
     message:
         "Comparing the rule's labels with the people's"

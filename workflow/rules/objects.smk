@@ -69,6 +69,8 @@ rule compare_shapes:
         surfaces=expand(rules.prepare_object.output.surface, object=OBJECTS),
     output:
         table=update("reports/object_shapes.csv"),
+        # A clone holds the table, but not from which data: without this it would not be made anew.
+        done=touch("logs/compare_shapes.done"),
     log:
         "logs/compare_shapes.log",
     benchmark:

@@ -8,6 +8,8 @@ rule replay_grasps:
     output:
         # Kept as it is where the data are lacking.
         table=update("reports/replay.csv"),
+        # A clone holds the table, but not from which data: without this it would not be made anew.
+        done=touch("logs/replay_grasps.done"),
     log:
         "logs/replay_grasps.log",
     benchmark:
@@ -40,8 +42,6 @@ rule derive_affinities:
     conda:
         "../envs/grasptypes.yaml"
     params:
-        published=os.environ.get("GRASPTYPES_PUBLISHED_CSV", ""),
-        meshes=os.environ.get("GRASPTYPES_REFERENCE_MESHES", ""),
         objects=OBJECTS,
         scale=config["replay"]["object_scale"],
         settings=config["contact_evidence"],

@@ -13,6 +13,7 @@ from grasptypes.contact_evidence import (
     pattern,
     summarise,
 )
+from grasptypes.errors import InputError
 from grasptypes.jobs import job
 from grasptypes.object_files import read_surface
 from grasptypes.published import read_published
@@ -43,9 +44,12 @@ def derive_affinities(
 
 if __name__ == "__main__":
     with job(snakemake.log):
+        if not snakemake.input.published or not snakemake.input.references:
+            variables = "GRASPTYPES_PUBLISHED_CSV and GRASPTYPES_REFERENCE_MESHES"
+            raise InputError(variables, "", "must name the published poses and the scans")
         derive_affinities(
-            snakemake.params.published,
-            snakemake.params.meshes,
+            snakemake.input.published,
+            Path(snakemake.input.references[0]).parent,
             dict(zip(snakemake.params.objects, snakemake.input.surfaces, strict=True)),
             (
                 snakemake.output.evidence,

@@ -25,6 +25,8 @@ from grasptypes.label_pictures import draw_confusion, save_figure
 from grasptypes.published_data import judge_published, lacking_data
 from grasptypes.tables import write_table
 
+OWN_OBJECTS = Path("data/objects")
+
 
 def evaluate_labels(judged: Judged, settings: Mapping[str, Any], table: Path, figure: Path) -> str:
     """Score the thresholds of the parameters; returns a line to log."""
@@ -51,13 +53,14 @@ if __name__ == "__main__":
     with job(snakemake.log) as log:
         settings, out = snakemake.params.settings, snakemake.output
         lacking = lacking_data(os.environ)
-        if lacking and not all(Path(path).exists() for path in out):
+        if lacking and not all(
+            Path(path).exists() for path in (out.table, out.validation, out.figure)
+        ):
             raise InputError("reports/label_agreement.csv", "", f"cannot be made: {lacking}")
         if lacking:
             log.warning("the tables stay as they are: %s", lacking)
             sys.stderr.write(f"the tables stay as they are: {lacking}\n")
         else:
-            own, scale = snakemake.params.own, snakemake.params.scale
-            judged = judge_published(os.environ, own, scale, settings)
+            judged = judge_published(os.environ, OWN_OBJECTS, snakemake.params.scale, settings)
             log.info(evaluate_labels(judged, settings, Path(out.table), Path(out.figure)))
             log.info(validate_thresholds(judged, settings, Path(out.validation)))
