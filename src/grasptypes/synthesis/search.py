@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import NamedTuple
 
 import numpy as np
@@ -21,11 +22,12 @@ from grasptypes.synthesis.energy import (
 )
 from grasptypes.synthesis.equilibrium import EquilibriumSettings, imbalance
 from grasptypes.synthesis.fields import Field
+from grasptypes.synthesis.grip_shape import ShapeRanges, ShapeSettings, deviation
 from grasptypes.synthesis.hand_model import FIRST_DISTAL, FIRST_PROXIMAL, HandModel
 
 Array = NDArray[np.float64]
 
-ALL_TERMS = (*TERMS, "imbalance")
+ALL_TERMS = (*TERMS, "imbalance", "grip_shape")
 
 
 class RefinementSettings(NamedTuple):
@@ -68,6 +70,9 @@ class SearchSettings(NamedTuple):
     closing: ClosingSettings
     energy: EnergySettings
     equilibrium: EquilibriumSettings
+    grip_shape: ShapeSettings
+    shapes: Mapping[str, ShapeRanges]
+    """What hands keep to, by grip."""
     refinement: RefinementSettings
     ranking: RankingSettings
 
@@ -87,7 +92,7 @@ class Ranked(NamedTuple):
 
     hands: Hands
     terms: Array
-    """(n, 6) in the order of `ALL_TERMS`."""
+    """(n, 7) in the order of `ALL_TERMS`."""
 
     @property
     def energy(self) -> Array:
@@ -109,16 +114,17 @@ def search_session(
     without a better one still has its grasp.
     """
     targets = draw_targets(person.points_m, person.normals, person.contact, settings.energy, draw)
+    shape = settings.shapes[person.grip]
     hands = draw_candidates(model, thing.grid, person, settings.candidates, settings.closing, draw)
-    found = _evaluate(model, thing, hands, targets, settings)
+    found = _evaluate(model, thing, hands, targets, shape, settings)
     best = found.take(_spaced(found, settings.refinement.parents, settings.ranking))
-    best = refine(model, thing, best, targets, settings, draw)
+    best = refine(model, thing, best, targets, shape, settings, draw)
     return best.take(_spaced(best, settings.ranking.tries, settings.ranking))
 
 
 def refine(
-    model: HandModel, thing: Thing, parents: Ranked, targets: Targets, settings: SearchSettings,
-    draw: np.random.Generator,
+    model: HandModel, thing: Thing, parents: Ranked, targets: Targets, shape: ShapeRanges,
+    settings: SearchSettings, draw: np.random.Generator,
 ) -> Ranked:  # fmt: skip
     """Vary pose and spread, close the fingers anew, and keep what has a lower energy.
 
@@ -131,7 +137,7 @@ def refine(
         hands = _varied(parents.hands, how, scale, draw)
         T, spread = hands.T_object_hand, hands.joint_angles_rad[:, 0]
         closed = Hands(T, close_fingers(model, thing.grid, T, spread, settings.closing))
-        children = _evaluate(model, thing, closed, targets, settings)
+        children = _evaluate(model, thing, closed, targets, shape, settings)
         energy = np.column_stack([parents.energy, children.energy.reshape(-1, how.children)])
         winner = energy.argmin(axis=1)
         row = np.arange(len(winner))
@@ -142,8 +148,9 @@ def refine(
 
 
 def _evaluate(
-    model: HandModel, thing: Thing, hands: Hands, targets: Targets, settings: SearchSettings
-) -> Ranked:
+    model: HandModel, thing: Thing, hands: Hands, targets: Targets, shape: ShapeRanges,
+    settings: SearchSettings,
+) -> Ranked:  # fmt: skip
     """Energies of hands (n); infinite imbalance marks those that must not be ranked."""
     poses = hands.T_object_hand[:, None] @ kinematics.link_poses(hands.joint_angles_rad)
     close = closeness(model, thing.grid, poses)
@@ -157,8 +164,11 @@ def _evaluate(
     poses = poses[sound]
     close = type(close)(close.gaps_m[sound], close.self_depth_m[sound])
     terms[sound, : len(TERMS)] = energies(model, poses, close, targets, settings.energy)
-    terms[sound, -1] = settings.equilibrium.weight * imbalance(
+    terms[sound, -2] = settings.equilibrium.weight * imbalance(
         model, thing.grid, poses, thing.centre_of_mass_m, thing.radius_m, settings.equilibrium
+    )
+    terms[sound, -1] = settings.grip_shape.weight * deviation(
+        model, thing.grid, poses, hands.joint_angles_rad[sound], shape, settings.grip_shape
     )
     return Ranked(hands, terms)
 

@@ -9,6 +9,7 @@ from grasptypes.synthesis.candidates import CandidateSettings
 from grasptypes.synthesis.closing import ClosingSettings
 from grasptypes.synthesis.energy import EnergySettings
 from grasptypes.synthesis.equilibrium import EquilibriumSettings
+from grasptypes.synthesis.grip_shape import ShapeRanges, ShapeSettings
 from grasptypes.synthesis.hand_model import hand_model
 from grasptypes.synthesis.search import RankingSettings, RefinementSettings, SearchSettings
 from grasptypes.synthesis.trials import Hand
@@ -16,11 +17,17 @@ from grasptypes.synthesis.trials import Hand
 
 def search_settings(synthesis: Mapping[str, Any]) -> SearchSettings:
     """The `synthesis` section of params.yaml, whose keys are the settings' fields."""
+    grips = synthesis["candidates"]["grips"]
     return SearchSettings(
         candidates=CandidateSettings(**synthesis["candidates"]),
         closing=ClosingSettings(**synthesis["closing"]),
         energy=EnergySettings(**synthesis["energy"]),
         equilibrium=EquilibriumSettings(**synthesis["equilibrium"]),
+        grip_shape=ShapeSettings(**synthesis["grip_shape"]),
+        shapes={
+            grip: ShapeRanges(**how["shape"])
+            for grip, how in synthesis["candidates"]["grips"].items()
+        },
         refinement=RefinementSettings(**synthesis["refinement"]),
         ranking=RankingSettings(**synthesis["ranking"]),
     )

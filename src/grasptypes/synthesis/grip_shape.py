@@ -1,0 +1,120 @@
+"""How far a hand is from holding the way the person did, beside touching where the person did.
+
+A contact map says where, not how: closed fingers may cover the same surface from one side where
+the person's came from three. The measures are those that tell grasp types apart, see `grasp_type`,
+here on the search's coarse hand.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numba
+import numpy as np
+from numpy.typing import NDArray
+
+from grasptypes.grasp_type import enclosed_diameters
+from grasptypes.synthesis.closing import moved
+from grasptypes.synthesis.fields import Field, distance, gradient
+from grasptypes.synthesis.hand_model import FIRST_DISTAL, FIRST_PROXIMAL, PALM, HandModel
+
+Array = NDArray[np.float64]
+
+_FINGERS = FIRST_DISTAL - FIRST_PROXIMAL
+
+
+class ShapeRanges(NamedTuple):
+    """What hands that hold with a grip keep to; least and most of each."""
+
+    palm_gap_m: tuple[float, float]
+    """Between the palm and the object."""
+    enclosed_diameter_m: tuple[float, float]
+    """Of the circle in the fingers, see `grasp_type.enclosed_diameters`."""
+    sideways_share: tuple[float, float]
+    """Of the fingers' push along the palm's x axis, see `grasp_type.sideways_share`."""
+
+
+class ShapeSettings(NamedTuple):
+    """How the measures are taken and what a deviation costs."""
+
+    reach_m: float
+    """Gap at which a link no longer pushes."""
+    closing_weight: float
+    """Length of the closing direction added to the unit normal."""
+    weight: float
+    """What a measure that lacks all of its least, or has twice its most, adds to the energy."""
+
+
+def deviation(
+    model: HandModel, grid: Field, link_poses: Array, joint_angles_rad: Array,
+    ranges: ShapeRanges, settings: ShapeSettings,
+) -> Array:  # fmt: skip
+    """Sum over the measures of how far each is outside of its range, as a share of the bound.
+
+    Args:
+        link_poses: (n, 9, 4, 4) links in the object's frame.
+        joint_angles_rad: (n, 8) of the same hands.
+
+    Returns:
+        (n,) 0 to 3; no measure counts more than 1.
+    """
+    gap, share = _palm_and_push(model, grid, link_poses, settings.reach_m, settings.closing_weight)
+    diameter = np.median(enclosed_diameters(joint_angles_rad), axis=1)
+    total = np.zeros(len(link_poses))
+    for values, (least, most) in zip((gap, diameter, share), ranges, strict=True):
+        below, above = (least - values) / max(least, 1e-9), (values - most) / max(most, 1e-9)
+        total += np.clip(np.maximum(below, above), 0.0, 1.0)
+    return total
+
+
+@numba.njit(cache=True)
+def _palm_and_push(
+    model: HandModel, grid: Field, poses: Array, reach_m: float, closing_weight: float
+) -> tuple[Array, Array]:
+    """Palm gaps (n,) and sideways shares (n,)."""
+    gaps, shares = np.empty(len(poses)), np.zeros(len(poses))
+    for n in range(len(poses)):
+        gaps[n], _ = _nearest(model, grid, PALM, poses[n, PALM])
+        total = 0.0
+        for link in range(FIRST_PROXIMAL, len(model.radii)):
+            gap, point = _nearest(model, grid, link, poses[n, link])
+            if gap >= reach_m:
+                continue
+            base = poses[n, FIRST_PROXIMAL + (link - FIRST_PROXIMAL) % _FINGERS]
+            push = _push(grid, point, base, closing_weight)
+            along = 0.0
+            for k in range(3):
+                along += push[k] * poses[n, PALM, k, 0]
+            weight = min(1.0 - gap / reach_m, 1.0)
+            total += weight
+            shares[n] += weight * along * along
+        if total > 0.0:
+            shares[n] /= total
+    return gaps, shares
+
+
+@numba.njit(cache=True)
+def _nearest(
+    model: HandModel, grid: Field, link: int, pose: Array
+) -> tuple[float, tuple[float, float, float]]:
+    """Gap of a link and its point next to the object."""
+    least, nearest = np.inf, (0.0, 0.0, 0.0)
+    for index in range(model.starts[link], model.starts[link + 1]):
+        point = moved(pose, model.points, index)
+        gap = distance(grid, point[0], point[1], point[2])
+        if gap < least:
+            least, nearest = gap, point
+    return least, nearest
+
+
+@numba.njit(cache=True)
+def _push(grid: Field, point: tuple[float, float, float], base: Array, weight: float) -> Array:
+    """Unit push at a point of a finger whose first joint turns about z of `base`."""
+    gx, gy, gz = gradient(grid, point[0], point[1], point[2])
+    norm = max(np.sqrt(gx * gx + gy * gy + gz * gz), 1e-12)
+    ax, ay, az = base[0, 2], base[1, 2], base[2, 2]
+    rx, ry, rz = point[0] - base[0, 3], point[1] - base[1, 3], point[2] - base[2, 3]
+    push = np.array([ay * rz - az * ry, az * rx - ax * rz, ax * ry - ay * rx])
+    push *= weight / max(np.sqrt(np.sum(push * push)), 1e-12)
+    push -= np.array([gx, gy, gz]) / norm
+    return push / max(np.sqrt(np.sum(push * push)), 1e-12)
