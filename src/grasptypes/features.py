@@ -73,7 +73,7 @@ def extract(
         batch: pictures at once; a speed setting that hardly changes the result.
 
     Returns:
-        encoding to (N, 1280) float32.
+        encoding to (N, F) float32.
     """
     backbone = backbone.to(memory_format=torch.channels_last).eval()
     features = {}
@@ -86,6 +86,6 @@ def extract(
 
 @torch.inference_mode()
 def forward(backbone: Backbone, pictures: torch.Tensor, precision: str) -> torch.Tensor:
-    """Features (B, 1280) float32 of a batch (B, H, W, 3) uint8, without gradients."""
+    """Features (B, F) float32 of a batch (B, H, W, 3) uint8, without gradients."""
     with torch.autocast("cpu", torch.bfloat16, enabled=precision == "bf16"):
         return backbone(pictures).to(torch.float32)

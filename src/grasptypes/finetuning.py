@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 import torch
 
-from grasptypes.backbone import FEATURES, Backbone, thaw
+from grasptypes.backbone import Backbone, thaw
 from grasptypes.examples import Examples
 from grasptypes.predictor import Architecture, Heads, loss
 from grasptypes.seeds import rng, seed
@@ -74,7 +74,7 @@ def fine_tune(
     names = (*key, member.group, member.seed)
     torch.manual_seed(seed("dropout", *names))
     tasks = 0 if examples.task_vectors is None else examples.task_vectors.shape[1]
-    sizes = Architecture(FEATURES, tasks, schedule.hidden, examples.labels.shape[1])
+    sizes = Architecture(backbone.kind.features, tasks, schedule.hidden, examples.labels.shape[1])
     network = Network(copy.deepcopy(backbone), Heads(sizes, [names], schedule.dropout)).eval()
     thawed = thaw(network.backbone, tuning.finetune, tuning.last_blocks)
     optimiser = torch.optim.AdamW(

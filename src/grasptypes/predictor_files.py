@@ -91,7 +91,7 @@ def write_predictor(
     """
     state = {f"head.{name}": tensor for name, tensor in heads.state_dict().items()}
     if backbone is not None:
-        state |= {f"backbone.{name}": tensor for name, tensor in _stem_state(backbone).items()}
+        state |= {f"backbone.{name}": tensor for name, tensor in backbone.state_dict().items()}
     write_bytes(tensors, safetensors.torch.save({k: v.contiguous() for k, v in state.items()}))
     write_json(described, asdict(card))
 
@@ -130,20 +130,22 @@ def load_predictor(tensors: str | Path, described: str | Path, weights: Weights)
             f"here is {weights.backbone}, {weights.name}",
         )
     backbone = load_backbone(weights, card.input_px)
+    if card.architecture.inputs != backbone.kind.features:
+        raise InputError(
+            described,
+            "architecture.inputs",
+            f"{card.architecture.inputs} features, but {card.backbone} gives "
+            f"{backbone.kind.features} here",
+        )
     heads = Heads(card.architecture, [()])
     try:
         state = safetensors.torch.load(Path(tensors).read_bytes())
         heads.load_state_dict(_below("head.", state))
         if card.finetune != FROZEN:
-            backbone.load_state_dict(_below("backbone.", state), strict=False)
+            backbone.load_state_dict(_below("backbone.", state))
     except (OSError, RuntimeError, safetensors.SafetensorError) as error:
         raise InputError(tensors, "", f"not this predictor's tensors: {error}") from error
     return Predictor(Network(backbone, heads), card)
-
-
-def _stem_state(backbone: Backbone) -> dict[str, torch.Tensor]:
-    """The blocks' tensors once: the stem may share them under a second name."""
-    return {n: t for n, t in backbone.state_dict().items() if n.startswith("blocks.")}
 
 
 def _below(prefix: str, state: Mapping[str, torch.Tensor]) -> dict[str, torch.Tensor]:

@@ -17,6 +17,7 @@ from matplotlib.figure import Figure
 from PIL import Image
 
 from grasptypes.files import write_bytes
+from grasptypes.results import constant_rows
 
 MEASURES = {"sim": "angular similarity", "acc": "multilabel accuracy", "prec": "precision"}
 LABELLED = {
@@ -25,11 +26,13 @@ LABELLED = {
     "task_in_image": "(c) task in image",
     "ignores_task": "(d) ignores task",
 }
-OURS, PAPER, CEILING = "#2a6f97", "#c9a227", "#6c757d"
+OURS, PAPER, CEILING, CONSTANT = "#2a6f97", "#c9a227", "#6c757d", "#b23a48"
 
 
 def plot_table(table: pd.DataFrame, path: str | Path) -> None:
     """Bars of mean and spread for each model and measure, beside the paper and the ceiling.
+
+    Where the table has no figures of the paper, the best constant answer is drawn instead.
 
     Args:
         table: of :data:`grasptypes.results.RESULT_SCHEMA`; one row of panels a label source.
@@ -43,6 +46,9 @@ def plot_table(table: pd.DataFrame, path: str | Path) -> None:
     for row, labels in zip(panels, sources, strict=True):
         for axes, (short, title) in zip(row, MEASURES.items(), strict=True):
             _bars(axes, used[used["labels"] == labels], short)
+            if not _has_paper(used):
+                constant = constant_rows(table, labels)[f"{short}_mean"]
+                _steps(axes, constant, CONSTANT, "best constant answer")
             axes.set_title(title, fontsize=10)
         row[0].set_ylabel(f"{labels} labels")
     # The panels share their axis: it must reach down to the lowest bar and its spread.
@@ -80,28 +86,34 @@ def save(figure: Figure, path: str | Path) -> None:
     write_bytes(path, buffer.getvalue())
 
 
+def _steps(axes: Axes, heights: pd.Series, colour: str, label: str) -> None:
+    """A level of its own above each bar."""
+    place = np.arange(len(heights))
+    axes.hlines(
+        heights, place - 0.45, place + 0.45, colors=colour, linestyles="dashed", label=label
+    )
+
+
+def _has_paper(rows: pd.DataFrame) -> bool:
+    return bool(rows[[f"paper_{short}" for short in MEASURES]].notna().any(axis=None))
+
+
 def _bars(axes: Axes, rows: pd.DataFrame, short: str) -> None:
     place = np.arange(len(rows))
+    paper = _has_paper(rows)
     axes.bar(
-        place - 0.2,
+        place - 0.2 * paper,
         rows[f"{short}_mean"],
-        0.4,
+        0.4 if paper else 0.7,
         yerr=rows[f"{short}_sd"],
         color=OURS,
         label="here",
         capsize=2,
     )
-    axes.bar(place + 0.2, rows[f"paper_{short}"], 0.4, color=PAPER, label="paper")
+    if paper:
+        axes.bar(place + 0.2, rows[f"paper_{short}"], 0.4, color=PAPER, label="paper")
     if f"ceiling_{short}" in rows:
-        ceiling = rows[f"ceiling_{short}"]
-        axes.hlines(
-            ceiling,
-            place - 0.45,
-            place + 0.45,
-            colors=CEILING,
-            linestyles="dashed",
-            label="ceiling of the labels",
-        )
+        _steps(axes, rows[f"ceiling_{short}"], CEILING, "ceiling of the labels")
     axes.set_xticks(
         place, [LABELLED[model] for model in rows["model"]], rotation=25, ha="right", fontsize=8
     )

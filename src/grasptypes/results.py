@@ -25,7 +25,10 @@ PAPER = {
 }
 # Its row (e): MobileNetV2 of Zandigohar et al., arXiv:2101.05357 (their InceptionV3 has 0.95).
 LITERATURE = ("literature", 0.93)
-_SHORT = {
+# The best constant answer for the joint labels of all tasks.
+CONSTANT_JOINT = "best_constant_joint"
+# Beginnings of the columns of a table, by measure.
+SHORT = {
     "angular_similarity": "sim",
     "multilabel_accuracy": "acc",
     "multilabel_precision": "prec",
@@ -79,12 +82,12 @@ RESULT_SCHEMA = pa.DataFrameSchema(
         "weights": pa.Column(str),
         **{
             f"{short}_{part}": pa.Column(float, _SHARE, nullable=True)
-            for short in _SHORT.values()
+            for short in SHORT.values()
             for part in ("mean", "sd")
         },
         "n_folds": pa.Column(int, pa.Check.ge(0)),
         "n_seeds": pa.Column(int, pa.Check.ge(0)),
-        **{f"paper_{short}": pa.Column(float, nullable=True) for short in _SHORT.values()},
+        **{f"paper_{short}": pa.Column(float, nullable=True) for short in SHORT.values()},
         "ceiling_sim": pa.Column(float, _SHARE, nullable=True),
         "ceiling_acc": pa.Column(float, _SHARE, nullable=True),
     },
@@ -145,17 +148,22 @@ def curve_table(members: Sequence[Member], curves: np.ndarray) -> pd.DataFrame:
     )
 
 
-def tabulate(metrics: pd.DataFrame, samples: pd.DataFrame, labels: str) -> pd.DataFrame:
-    """The rows of Table I for one label source.
+def tabulate(
+    metrics: pd.DataFrame, samples: pd.DataFrame, labels: str, unseen: bool = False
+) -> pd.DataFrame:
+    """The rows of Table I, or of Table II on unseen objects, for one label source.
 
     ``ceiling_*`` is what the row's model could reach with perfect recognition of the object: the
     task-blind ceiling for the model that does not know the task, 1 for the others. The reference
-    predictors and the literature stand in rows of their own.
+    predictors and the literature stand in rows of their own; the model that ignores the task is
+    asked for joint labels, so that it has a best constant answer of its own.
 
     Args:
         metrics: rows of :data:`METRIC_SCHEMA`, all of these labels.
         samples: the label source's table of :mod:`grasptypes.samples`.
         labels: its name.
+        unseen: the groups are objects left out of training. The paper and the literature measured
+            none: their columns stay empty.
 
     Returns:
         a table of :data:`RESULT_SCHEMA`.
@@ -165,22 +173,25 @@ def tabulate(metrics: pd.DataFrame, samples: pd.DataFrame, labels: str) -> pd.Da
     rows = []
     for model, group in metrics.groupby("model"):
         knows = model != "no_task"
-        paper = dict(zip(_SHORT.values(), PAPER[str(model)], strict=True))
+        paper = {} if unseen else dict(zip(SHORT.values(), PAPER[str(model)], strict=True))
         rows.append(
             {"model": model, "labels": labels}
             | {key: _only(group[key]) for key in ("backbone", "weights")}
-            | {f"{short}_mean": group[name].mean() for name, short in _SHORT.items()}
-            | {f"{short}_sd": group[name].std() for name, short in _SHORT.items()}
+            | {f"{short}_mean": group[name].mean() for name, short in SHORT.items()}
+            | {f"{short}_sd": group[name].std() for name, short in SHORT.items()}
             | {"n_folds": group["group"].nunique(), "n_seeds": group["seed"].nunique()}
             | {f"paper_{short}": value for short, value in paper.items()}
             | {"ceiling_sim": 1.0 if knows else blind["angular_similarity"]}
             | {"ceiling_acc": 1.0 if knows else blind["multilabel_accuracy"]}
         )
     rows.sort(key=lambda row: list(VARIANTS).index(row["model"]))
-    for name in CEILINGS:
-        values = {f"{short}_mean": reference.loc[name, long] for long, short in _SHORT.items()}
+    joint = ceilings(labels_of(samples).any(axis=1, keepdims=True))
+    reference.loc[CONSTANT_JOINT] = joint.loc["best_constant"]
+    for name in (*CEILINGS, CONSTANT_JOINT):
+        values = {f"{short}_mean": reference.loc[name, long] for long, short in SHORT.items()}
         rows.append({"model": name, "labels": labels} | values)
-    rows.append({"model": LITERATURE[0], "labels": "", "paper_sim": LITERATURE[1]})
+    if not unseen:
+        rows.append({"model": LITERATURE[0], "labels": "", "paper_sim": LITERATURE[1]})
     table = pd.DataFrame(rows, columns=list(RESULT_SCHEMA.columns))
     texts, counts = ["backbone", "weights"], ["n_folds", "n_seeds"]
     table[texts] = table[texts].fillna("")
@@ -190,26 +201,19 @@ def tabulate(metrics: pd.DataFrame, samples: pd.DataFrame, labels: str) -> pd.Da
     return table.round(6)
 
 
-def markdown(table: pd.DataFrame) -> str:
-    """A table of :data:`RESULT_SCHEMA` as Markdown, mean ± spread in one cell."""
-    heads = ["model", "labels", "similarity", "accuracy", "precision", "paper", "ceiling"]
-    lines = [" | ".join(heads), " | ".join("---" for _ in heads)]
-    for row in table.to_dict("records"):
-        cells = [row["model"], row["labels"]]
-        cells += [_spread(row[f"{s}_mean"], row[f"{s}_sd"]) for s in _SHORT.values()]
-        cells.append(_joined(row[f"paper_{short}"] for short in _SHORT.values()))
-        cells.append(_joined(row[f"ceiling_{short}"] for short in ("sim", "acc")))
-        lines.append(" | ".join(cells))
-    used = table[table["n_folds"] > 0]
-    note = "; ".join(
-        f"{labels}: {backbone}, {weights}, {folds} groups x {seeds} seeds"
-        for labels, backbone, weights, folds, seeds in used[
-            ["labels", "backbone", "weights", "n_folds", "n_seeds"]
-        ]
-        .drop_duplicates()
-        .itertuples(index=False)
-    )
-    return "\n".join(f"| {line} |" for line in lines) + f"\n\n{note}\n"
+def constant_rows(table: pd.DataFrame, labels: str) -> pd.DataFrame:
+    """For each trained model the row of the best constant answer to what it is asked.
+
+    Args:
+        table: of :data:`RESULT_SCHEMA`.
+
+    Returns:
+        index model, columns those of the table.
+    """
+    rows = table[table["labels"] == labels].set_index("model")
+    models = rows.index[rows["n_folds"] > 0]
+    named = [CONSTANT_JOINT if VARIANTS[m].joint_labels else "best_constant" for m in models]
+    return rows.loc[named].set_axis(models)
 
 
 def _only(column: pd.Series) -> str:
@@ -217,17 +221,3 @@ def _only(column: pd.Series) -> str:
     if len(values) != 1:
         raise ValueError(f"one table from different {column.name}: {', '.join(values)}")
     return str(values[0])
-
-
-def _spread(mean: float, deviation: float) -> str:
-    if np.isnan(mean):
-        return ""
-    return f"{mean:.3f}" if np.isnan(deviation) else f"{mean:.3f} ± {deviation:.3f}"
-
-
-def _joined(values: Sequence[float]) -> str:
-    return " / ".join(
-        f"{value:.2f}" if value == round(value, 2) else f"{value:.3f}"
-        for value in values
-        if not np.isnan(value)
-    )

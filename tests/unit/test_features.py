@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from grasptypes.backbone import untrained_backbone
+from grasptypes.backbone import KINDS, untrained_backbone
 from grasptypes.errors import InputError
 from grasptypes.features import encodings, extract, read_pictures, shift_colours
 from grasptypes.files import write_bytes, zip_bytes
@@ -62,7 +62,9 @@ def test_features_of_each_encoding(pictures):
     backbone = untrained_backbone("mobilenet_v2", 64)
     shifts = encodings(TASKS)
     features = extract(backbone, pictures, shifts, "fp32", 2)
-    assert {name: f.shape for name, f in features.items()} == dict.fromkeys(shifts, (3, 1280))
+    assert {name: f.shape for name, f in features.items()} == dict.fromkeys(
+        shifts, (3, KINDS["mobilenet_v2"].features)
+    )
     shifted = extract(backbone, shift_colours(pictures, 5), {"none": 0}, "fp32", 3)
     np.testing.assert_allclose(features["show"], shifted["none"], atol=1e-5)
     again = extract(backbone, pictures, shifts, "fp32", 2)

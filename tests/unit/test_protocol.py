@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 import torch
 
-from grasptypes.backbone import untrained_backbone
+from grasptypes.backbone import KINDS, untrained_backbone
 from grasptypes.errors import InputError
 from grasptypes.examples import assemble
 from grasptypes.params import read_yaml
@@ -27,7 +27,7 @@ def weights(tmp_path_factory):
     """Weights of a MobileNetV2 that has seen nothing."""
     torch.manual_seed(0)
     path = tmp_path_factory.mktemp("weights") / "random.pth"
-    stem = untrained_backbone("mobilenet_v2", 32).stem.state_dict()
+    stem = untrained_backbone("mobilenet_v2", 32).blocks.state_dict()
     state = {f"features.{name}": tensor for name, tensor in stem.items()}
     state |= {
         "classifier.1.weight": torch.zeros(1000, 1280),
@@ -110,7 +110,7 @@ def test_a_fine_tuned_predictor_survives_the_disk(weights, tmp_path):
     examples = pictures("task_vector")
     few = replace(examples, inputs=examples.inputs[:16])
     backbone = untrained_backbone("mobilenet_v2", 32).eval()
-    backbone.stem.load_state_dict(
+    backbone.blocks.load_state_dict(
         {k.removeprefix("features."): v for k, v in torch.load(weights.path).items() if "feat" in k}
     )
     heads, tuned = train_final(few, recipe, KEY, backbone)
@@ -128,7 +128,9 @@ def test_a_fine_tuned_predictor_survives_the_disk(weights, tmp_path):
 def test_a_predictor_from_the_disk_answers_as_the_one_that_was_trained(weights, tmp_path, model):
     tasks = 3 if model == "task_vector" else 0
     sizes = learning.SCHEDULE.hidden
-    heads = Heads(Architecture(1280, tasks, sizes, len(TYPES)), [("a",)]).eval()
+    heads = Heads(
+        Architecture(KINDS["mobilenet_v2"].features, tasks, sizes, len(TYPES)), [("a",)]
+    ).eval()
     files = tmp_path / "predictor.safetensors", tmp_path / "predictor.json"
     write_predictor(heads, None, card(heads.architecture, weights, model), *files)
     assert read_card(files[1]) == card(heads.architecture, weights, model)
@@ -142,7 +144,7 @@ def test_a_predictor_from_the_disk_answers_as_the_one_that_was_trained(weights, 
 
 
 def test_other_weights_and_damaged_files_are_refused(weights, tmp_path):
-    heads = Heads(Architecture(1280, 0, (4, 4, 4), len(TYPES)), [("a",)])
+    heads = Heads(Architecture(KINDS["mobilenet_v2"].features, 0, (4, 4, 4), len(TYPES)), [("a",)])
     files = tmp_path / "predictor.safetensors", tmp_path / "predictor.json"
     write_predictor(heads, None, card(heads.architecture, weights, "no_task"), *files)
     with pytest.raises(InputError, match="trained on mobilenet_v2"):

@@ -11,7 +11,7 @@ import pytest
 import torch
 
 import grasptypes.tracking
-from grasptypes.backbone import untrained_backbone
+from grasptypes.backbone import KINDS, untrained_backbone
 from grasptypes.metrics import softmax
 from grasptypes.predictor import Architecture, Heads
 from grasptypes.predictor_files import Card, load_predictor, write_predictor
@@ -119,13 +119,13 @@ def test_two_processes_on_a_new_file(tmp_path):
 def test_a_logged_model_answers_like_the_predictor(template, tmp_path):
     """It is self-contained: weights, code and signature travel with it."""
     torch.manual_seed(0)
-    stem = untrained_backbone("mobilenet_v2", 32).stem.state_dict()
+    stem = untrained_backbone("mobilenet_v2", 32).blocks.state_dict()
     state = {f"features.{name}": tensor for name, tensor in stem.items()}
     state["classifier.1.weight"] = torch.zeros(1000, 1280)
     state["classifier.1.bias"] = torch.zeros(1000)
     torch.save(state, tmp_path / "random.pth")
     weights = weights_file("mobilenet_v2", "test", tmp_path / "random.pth")
-    sizes = Architecture(1280, 2, (8, 8, 8), 6)
+    sizes = Architecture(KINDS["mobilenet_v2"].features, 2, (8, 8, 8), 6)
     shifts = {"use": 10, "handoff": -10}
     card = Card(
         "task_vector", "published", TYPES, tuple(shifts), shifts, sizes,

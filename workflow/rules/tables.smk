@@ -15,6 +15,7 @@ rule tabulate_simulated:
         "../envs/grasptypes.yaml"
     params:
         labels=["simulated"],
+        unseen=False,
         code=script_hash("tabulate_results"),
     message:
         "Tabulating the models on simulated labels"
@@ -34,6 +35,7 @@ use rule tabulate_simulated as tabulate_published with:
         "logs/tabulate_published.log",
     params:
         labels=["published"],
+        unseen=False,
         code=script_hash("tabulate_results"),
     message:
         "Tabulating the models on published labels"
@@ -51,6 +53,7 @@ use rule tabulate_simulated as tabulate_unseen with:
         "logs/tabulate_unseen.log",
     params:
         labels=LABELS,
+        unseen=True,
         code=script_hash("tabulate_results"),
     message:
         "Tabulating the models on objects they have not seen"

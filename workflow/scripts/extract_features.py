@@ -20,7 +20,7 @@ def extract_features(
     tasks: Mapping[str, Mapping[str, int]],
     settings: Mapping[str, Any],
 ) -> None:
-    """Write one array an encoding, (views, 1280) float32, to `target`."""
+    """Write one array an encoding, (views, F) float32, to `target`."""
     known = read_backbone_record(record)
     backbone = load_backbone(recorded_weights(known), known.input_px)
     shifts = encodings(tasks)

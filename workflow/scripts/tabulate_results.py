@@ -7,18 +7,19 @@ import pandas as pd
 from grasptypes.files import write_text
 from grasptypes.jobs import job
 from grasptypes.result_plots import plot_table
-from grasptypes.results import METRIC_SCHEMA, RESULT_SCHEMA, markdown, tabulate
+from grasptypes.result_text import markdown
+from grasptypes.results import METRIC_SCHEMA, RESULT_SCHEMA, tabulate
 from grasptypes.samples import read_samples
 from grasptypes.tables import read_table, write_table
 
 
 def tabulate_results(
-    metrics: Sequence[str], samples: Mapping[str, str], outputs: Mapping[str, str]
+    metrics: Sequence[str], samples: Mapping[str, str], outputs: Mapping[str, str], unseen: bool
 ) -> None:
     """Write one table of all label sources in `samples` (source to its table of samples)."""
     rows = pd.concat([read_table(path, METRIC_SCHEMA) for path in metrics], ignore_index=True)
     tables = [
-        tabulate(rows[rows["labels"] == labels], read_samples(path), labels)
+        tabulate(rows[rows["labels"] == labels], read_samples(path), labels, unseen)
         for labels, path in samples.items()
     ]
     table = pd.concat(tables, ignore_index=True).drop_duplicates(ignore_index=True)
@@ -30,4 +31,5 @@ def tabulate_results(
 if __name__ == "__main__":
     with job(snakemake.log):
         sources = zip(snakemake.params.labels, snakemake.input.samples, strict=True)
-        tabulate_results(snakemake.input.metrics, dict(sources), dict(snakemake.output.items()))
+        outputs = dict(snakemake.output.items())
+        tabulate_results(snakemake.input.metrics, dict(sources), outputs, snakemake.params.unseen)
