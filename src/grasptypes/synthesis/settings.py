@@ -24,10 +24,7 @@ def search_settings(synthesis: Mapping[str, Any]) -> SearchSettings:
         energy=EnergySettings(**synthesis["energy"]),
         equilibrium=EquilibriumSettings(**synthesis["equilibrium"]),
         grip_shape=ShapeSettings(**synthesis["grip_shape"]),
-        shapes={
-            grip: ShapeRanges(**how["shape"])
-            for grip, how in synthesis["candidates"]["grips"].items()
-        },
+        shapes={grip: ShapeRanges(**how["shape"]) for grip, how in grips.items()},
         refinement=RefinementSettings(**synthesis["refinement"]),
         ranking=RankingSettings(**synthesis["ranking"]),
     )
