@@ -7,8 +7,11 @@ from typing import Any
 
 import mlflow
 import numpy as np
+from mlflow.exceptions import MlflowException
+from mlflow.protos.databricks_pb2 import INVALID_PARAMETER_VALUE
 from mlflow.pyfunc import PythonModel, PythonModelContext
 
+from grasptypes.errors import InputError
 from grasptypes.metrics import softmax
 from grasptypes.predictor_files import load_predictor, read_card
 from grasptypes.weights import weights_file
@@ -37,18 +40,33 @@ class GraspTypePredictor(PythonModel):
 
         Returns:
             ``probability`` and ``sigmoid``, (N, types) float32 each.
+
+        Raises:
+            MlflowException: an unknown task, or not one task a picture.
         """
         pictures = np.asarray(model_input["image"], dtype=np.uint8)
         asked = np.asarray(model_input["task"]).astype(str).reshape(-1)
         outputs = len(self._predictor.card.types)
         logits = np.zeros((len(pictures), outputs), dtype=np.float32)
+        if len(asked) != len(pictures):
+            raise _refusal(f"{len(pictures)} images, but {len(asked)} tasks: one each is needed")
+        if pictures.ndim != 4 or min(pictures.shape) == 0:
+            raise _refusal(f"image has shape {pictures.shape} instead of (N, height, width, 3)")
         for task in sorted(set(asked)):
-            logits[asked == task] = self._predictor.logits(pictures[asked == task], task)
+            try:
+                logits[asked == task] = self._predictor.logits(pictures[asked == task], task)
+            except InputError as error:
+                raise _refusal(str(error)) from error
         sigmoid = 1 / (1 + np.exp(-logits))
         return {
             "probability": softmax(logits).astype(np.float32),
             "sigmoid": sigmoid.astype(np.float32),
         }
+
+
+def _refusal(message: str) -> MlflowException:
+    """What the server answers with status 400, without a stack trace."""
+    return MlflowException(message, INVALID_PARAMETER_VALUE)
 
 
 mlflow.models.set_model(GraspTypePredictor())

@@ -1,0 +1,47 @@
+"""The command line: ``grasptypes predict`` and whatever else ``grasptypes --help`` lists."""
+
+from __future__ import annotations
+
+import argparse
+import logging
+import sys
+import warnings
+from collections.abc import Sequence
+from typing import NoReturn
+
+from grasptypes.commands import predict
+from grasptypes.errors import InputError
+
+COMMANDS = {"predict": predict}
+
+
+class _Parser(argparse.ArgumentParser):
+    """Says what is wrong with the arguments on one line."""
+
+    def error(self, message: str) -> NoReturn:
+        self.exit(2, f"error: {message} (see {self.prog} --help)\n")
+
+
+def parser() -> argparse.ArgumentParser:
+    """All commands and their options."""
+    whole = _Parser("grasptypes", description="Which grasp should a robot's hand use?")
+    commands = whole.add_subparsers(dest="command", required=True, metavar="COMMAND")
+    for name, module in COMMANDS.items():
+        summary = str(module.__doc__).splitlines()[0]
+        module.add_arguments(commands.add_parser(name, help=summary, description=summary))
+    return whole
+
+
+def main(arguments: Sequence[str] | None = None) -> None:
+    """Run one command; bad input ends with one line and exit status 1."""
+    asked = parser().parse_args(arguments)
+    logging.basicConfig(level=logging.ERROR)
+    warnings.simplefilter("ignore")
+    try:
+        sys.stdout.write(COMMANDS[asked.command].run(asked))
+    except InputError as error:
+        sys.exit(f"error: {error}")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,115 @@
+"""A user's own pictures: read with suspicion, and brought to the shape the predictors see."""
+
+from __future__ import annotations
+
+import struct
+import warnings
+import zlib
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+from PIL import Image, ImageOps, UnidentifiedImageError
+
+from grasptypes.errors import InputError
+
+# No format that runs another program (EPS) or holds anything but one picture for the screen.
+FORMATS = ("PNG", "JPEG", "WEBP", "BMP", "TIFF", "GIF", "PPM")
+SUFFIXES = (".png", ".jpg", ".jpeg", ".webp", ".bmp", ".tif", ".tiff", ".gif", ".ppm")
+_MODES = ("1", "L", "P", "RGB", "CMYK", "YCbCr")
+_BROKEN = (OSError, SyntaxError, ValueError, EOFError, IndexError, struct.error, zlib.error)
+
+
+class PhotoLimits(NamedTuple):
+    """Which pictures are taken; the fields are keys of the `predict` section of params.yaml."""
+
+    min_px: int
+    """Shortest side."""
+    max_pixels: int
+    """Width times height."""
+    reduce_px: int
+    """Longer sides are reduced to this: the backbone sees far less."""
+
+
+def photo_files(path: str | Path) -> list[Path]:
+    """The file, or the pictures in a folder in the order of their names.
+
+    Raises:
+        InputError: there is nothing there.
+    """
+    path = Path(path)
+    if not path.exists():
+        raise InputError(path, "", "no such file or folder")
+    if path.is_file():
+        return [path]
+    files = sorted(file for file in path.iterdir() if file.suffix.lower() in SUFFIXES)
+    if not files:
+        raise InputError(path, "", f"holds no picture ({', '.join(SUFFIXES)})")
+    return files
+
+
+def read_photo(path: str | Path, limits: PhotoLimits) -> np.ndarray:
+    """A picture (S, S, 3) uint8, turned upright and padded to a square.
+
+    The padding has the border's median colour: the predictors have learned on square pictures,
+    and to squeeze a picture would change the object's proportions.
+
+    Raises:
+        InputError: not a picture, a damaged, too small or too large one, or one with an alpha
+            channel: what lies behind it is unknown, and a made-up ground would be guesswork.
+    """
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # the size is checked below
+        try:
+            with Image.open(path, formats=FORMATS) as opened:
+                _check(path, opened, limits)
+                opened.draft("RGB", (limits.reduce_px, limits.reduce_px))
+                opened.load()
+                upright = ImageOps.exif_transpose(opened).convert("RGB")
+        except InputError:
+            raise
+        except Image.DecompressionBombError as error:
+            raise InputError(path, "", _too_large(limits)) from error
+        except UnidentifiedImageError as error:
+            raise InputError(path, "", f"not a picture ({', '.join(FORMATS)})") from error
+        except _BROKEN as error:
+            raise InputError(path, "", f"cannot be read as a picture: {error}") from error
+    upright.thumbnail((limits.reduce_px, limits.reduce_px))
+    return padded(np.asarray(upright))
+
+
+def padded(picture: np.ndarray) -> np.ndarray:
+    """A picture (H, W, 3) in the middle of a square of its border's median colour."""
+    height, width = picture.shape[:2]
+    if height == width:
+        return picture
+    size = max(height, width)
+    border = [picture[0], picture[-1], picture[:, 0], picture[:, -1]]
+    square = np.empty((size, size, 3), dtype=np.uint8)
+    square[:] = np.median(np.concatenate(border), axis=0)
+    top, left = (size - height) // 2, (size - width) // 2
+    square[top : top + height, left : left + width] = picture
+    return square
+
+
+def _check(path: str | Path, picture: Image.Image, limits: PhotoLimits) -> None:
+    """Look at the header alone, before anything is decoded."""
+    width, height = picture.size
+    if min(width, height) < limits.min_px:
+        message = f"is {width} x {height} pixels; each side needs {limits.min_px}"
+        raise InputError(path, "", message)
+    if width * height > limits.max_pixels:
+        raise InputError(path, "", f"is {width} x {height} pixels; it {_too_large(limits)}")
+    if picture.has_transparency_data:
+        message = (
+            "has an alpha channel: save it without one, on the ground it is to be judged on "
+            "(e.g. magick in.png -background white -alpha remove out.png)"
+        )
+        raise InputError(path, "", message)
+    if picture.mode not in _MODES:
+        message = f"has values of mode {picture.mode}; allowed: 8 bits a channel, grey or colour"
+        raise InputError(path, "", message)
+
+
+def _too_large(limits: PhotoLimits) -> str:
+    return f"may have {limits.max_pixels / 1e6:g} million pixels at most"
