@@ -6,12 +6,15 @@ nothing.
 
 from __future__ import annotations
 
+import hashlib
 import logging
 import subprocess
 import sys
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
+
+import numpy as np
 
 import grasptypes.errors
 from grasptypes.errors import InputError
@@ -20,12 +23,21 @@ from grasptypes.learning_inputs import read_backbone_record, recorded_weights
 from grasptypes.params import read_yaml
 from grasptypes.predictor_files import read_card
 from grasptypes.run_records import Finished, file_digest, run_record, serving_requirements
-from grasptypes.tracking import LoggedModel, RunRecord, Store, publish
+from grasptypes.tracking import LoggedModel, Store, publish
+from grasptypes.weights import Weights
 
 logger = logging.getLogger(__name__)
 
-# What every run tells of the data it was made from.
-VERSIONED = ("dvc.lock", "data/samples.csv", "data/published_samples.csv", "data/folds.csv")
+# What every run tells of the data it was made from: files, and folders as a whole.
+VERSIONED = (
+    "dvc.lock",
+    "data/backbone.json",
+    "data/samples.csv",
+    "data/published_samples.csv",
+    "data/folds.csv",
+    "data/renders",
+    "data/features",
+)
 
 
 def finished_models(root: Path) -> list[Finished]:
@@ -43,9 +55,7 @@ def finished_models(root: Path) -> list[Finished]:
 
 def version_tags(root: Path) -> dict[str, str]:
     """The commit, whether the checkout differs from it, and checksums of the data."""
-    tags = {
-        f"sha256.{name}": file_digest(root / name) for name in VERSIONED if (root / name).is_file()
-    }
+    tags = {f"sha256.{name}": checksum(root / name) for name in VERSIONED if (root / name).exists()}
     commit = _git(root, "rev-parse", "HEAD")
     if commit:
         tags["mlflow.source.git.commit"] = commit
@@ -53,10 +63,20 @@ def version_tags(root: Path) -> dict[str, str]:
     return tags
 
 
+def checksum(path: Path) -> str:
+    """SHA-256 of a file, or of what ``sha256sum *`` prints in a folder."""
+    if path.is_file():
+        return file_digest(path)
+    lines = [f"{file_digest(file)}  {file.name}\n" for file in sorted(path.iterdir())]
+    return hashlib.sha256("".join(lines).encode()).hexdigest()
+
+
 def publish_runs(
     finished: Sequence[Finished], root: Path, tags: Mapping[str, str], params: Mapping[str, Any]
 ) -> int:
     """Upsert a parent run for each finished model, its folds below it, and its predictor.
+
+    Without the backbone's weights on this machine the runs are published, the predictors are not.
 
     Args:
         params: the whole of params.yaml.
@@ -64,30 +84,35 @@ def publish_runs(
     Returns:
         how many runs are new.
     """
-    pictures = min((root / "data/renders").glob("*.zip"))
-    weights = recorded_weights(read_backbone_record(root / "data/backbone.json"))
-    example = read_pictures(pictures)[:1]
-    records: list[RunRecord] = []
+    pairs = [(run_record(files, params["predictors"], tags), files) for files in finished]
     models: dict[str, tuple[str, LoggedModel]] = {}
-    for files in finished:
-        record = run_record(files, params["predictors"], tags)
-        card = read_card(files.card)
-        records.append(record)
-        artifacts = {"tensors": files.tensors, "card": files.card, "weights": weights.path}
-        models[record.key] = (
-            file_digest(files.tensors),
-            LoggedModel(
-                f"{card.labels}_{card.model}",
-                artifacts,
-                Path(grasptypes.errors.__file__).parent,
-                serving_requirements(),
-                example,
-                card.tasks[0],
-                len(card.types),
-            ),
-        )
+    try:
+        weights = recorded_weights(read_backbone_record(root / "data/backbone.json"))
+    except InputError as error:
+        logger.warning("runs are published without their predictors: %s", error)
+    else:
+        example = read_pictures(min((root / "data/renders").glob("*.zip")))[:1]
+        models = {
+            record.key: (file_digest(files.tensors), _servable(files, weights, example))
+            for record, files in pairs
+        }
     settings = params["tracking"]
-    return publish(Store(settings["database"], settings["experiment"]), records, models)
+    store = Store(root / settings["database"], settings["experiment"], settings["patience_s"])
+    return publish(store, [record for record, _ in pairs], models)
+
+
+def _servable(files: Finished, weights: Weights, example: np.ndarray) -> LoggedModel:
+    """The predictor with all it needs to answer; example (1, H, W, 3) uint8."""
+    card = read_card(files.card)
+    return LoggedModel(
+        f"{card.labels}_{card.model}",
+        {"tensors": files.tensors, "card": files.card, "weights": weights.path},
+        Path(grasptypes.errors.__file__).parent,
+        serving_requirements(),
+        example,
+        card.tasks[0],
+        len(card.types),
+    )
 
 
 def _git(root: Path, *arguments: str) -> str:

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import hashlib
 import json
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 from importlib.metadata import version
 from pathlib import Path
 from typing import Any
@@ -15,7 +15,6 @@ import pandas as pd
 from grasptypes.metrics import METRICS
 from grasptypes.results import CURVE_SCHEMA, METRIC_SCHEMA
 from grasptypes.tables import read_table
-from grasptypes.tracking import RunRecord
 
 # What grasptypes.serving imports, directly or not.
 SERVING_PACKAGES = (
@@ -35,6 +34,33 @@ SERVING_PACKAGES = (
 def serving_requirements() -> list[str]:
     """The packages a served predictor needs, at the versions it was made with."""
     return [f"{name}=={version(name)}" for name in SERVING_PACKAGES]
+
+
+@dataclass(frozen=True)
+class RunRecord:
+    """What a run shows.
+
+    Attributes:
+        key: made from the run's content; a run with this key is updated, not added.
+        name: shown in the UI.
+        start_ms: when it began, milliseconds since 1970.
+        end_ms: when it ended.
+        params: name to value.
+        metrics: name to one value.
+        curves: name to a value an epoch, first epoch 1.
+        tags: name to value.
+        children: runs folded under this one; one level only.
+    """
+
+    key: str
+    name: str
+    start_ms: int
+    end_ms: int
+    params: Mapping[str, Any]
+    metrics: Mapping[str, float]
+    curves: Mapping[str, Sequence[float]] = field(default_factory=dict)
+    tags: Mapping[str, str] = field(default_factory=dict)
+    children: Sequence[RunRecord] = ()
 
 
 @dataclass(frozen=True)
@@ -102,8 +128,8 @@ def flatten(nested: Mapping[str, Any], prefix: str = "") -> dict[str, str]:
 
 
 def file_digest(path: str | Path) -> str:
-    """First 32 hex digits of a file's SHA-256."""
-    return _digest(Path(path).read_bytes())
+    """SHA-256 of a file, as sha256sum prints it."""
+    return hashlib.sha256(Path(path).read_bytes()).hexdigest()
 
 
 def _child(

@@ -10,49 +10,29 @@ import contextlib
 import fcntl
 import logging
 import os
+import sqlite3
+import time
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import IO
 
 import mlflow
 import numpy as np
 from mlflow.entities import Metric, Param, Run, RunTag
+from mlflow.exceptions import MlflowException
 from mlflow.models import ModelSignature
 from mlflow.types import Schema, TensorSpec
+from sqlalchemy.exc import SQLAlchemyError
+
+from grasptypes.errors import InputError
+from grasptypes.run_records import RunRecord
 
 LOGGER = logging.getLogger("grasptypes")
 KEY_TAG = "grasptypes.key"
 MODEL_TAG = "grasptypes.model"
 _BATCH = 1000  # the most metrics MLflow takes at once
 _PARAM_LENGTH = 6000  # the longest parameter MLflow takes
-
-
-@dataclass(frozen=True)
-class RunRecord:
-    """What a run shows.
-
-    Attributes:
-        key: made from the run's content; a run with this key is updated, not added.
-        name: shown in the UI.
-        start_ms: when it began, milliseconds since 1970.
-        end_ms: when it ended.
-        params: name to value.
-        metrics: name to one value.
-        curves: name to a value an epoch, first epoch 1.
-        tags: name to value.
-        children: runs folded under this one; one level only.
-    """
-
-    key: str
-    name: str
-    start_ms: int
-    end_ms: int
-    params: Mapping[str, Any]
-    metrics: Mapping[str, float]
-    curves: Mapping[str, Sequence[float]] = field(default_factory=dict)
-    tags: Mapping[str, str] = field(default_factory=dict)
-    children: Sequence[RunRecord] = ()
 
 
 @dataclass(frozen=True)
@@ -100,33 +80,66 @@ class Store:
     Args:
         database: the file; its folder also takes the models.
         experiment: name under which the runs stand.
+        patience_s: how long to wait for a store that somebody else is writing.
     """
 
-    def __init__(self, database: str | Path, experiment: str) -> None:
+    def __init__(self, database: str | Path, experiment: str, patience_s: float) -> None:
         self.database = Path(database).resolve()
         self.experiment = experiment
+        self.patience_s = patience_s
 
     @contextlib.contextmanager
     def opened(self) -> Iterator[OpenStore]:
         """The store for writing; others wait. The lock ends with the process, however it ends.
 
-        MLflow itself fails when two processes create the tables of a new file together.
+        MLflow itself fails when two processes create the tables of a new file together, and tries
+        for more than an hour to open a file that is locked or damaged.
+
+        Raises:
+            InputError: the store is locked, read-only, damaged or out of reach.
         """
         os.environ.setdefault("MLFLOW_DISABLE_TELEMETRY", "true")
-        self.database.parent.mkdir(parents=True, exist_ok=True)
-        with self.database.with_suffix(".lock").open("w") as lock:
-            fcntl.flock(lock, fcntl.LOCK_EX)
-            uri = f"sqlite:///{self.database}"
-            mlflow.set_tracking_uri(uri)
-            client = mlflow.MlflowClient(uri)
-            found = client.get_experiment_by_name(self.experiment)
-            folder = self.database.parent / "mlruns"
-            identity = (
-                found.experiment_id
-                if found
-                else client.create_experiment(self.experiment, artifact_location=folder.as_uri())
-            )
-            yield OpenStore(client, identity)
+        try:
+            self.database.parent.mkdir(parents=True, exist_ok=True)
+            with self.database.with_suffix(".lock").open("w") as lock:
+                self._wait_for(lock)
+                self._check_writable()
+                uri = f"sqlite:///{self.database}"
+                mlflow.set_tracking_uri(uri)
+                client = mlflow.MlflowClient(uri)
+                yield OpenStore(client, self._experiment_of(client))
+        except (OSError, sqlite3.Error, MlflowException, SQLAlchemyError) as error:
+            reason = str(error).split("\n")[0]
+            later = "results do not depend on it, show them later with: make publish"
+            raise InputError(self.database, "", f"cannot be written: {reason}; {later}") from error
+
+    def _wait_for(self, lock: IO[str]) -> None:
+        """Take the lock, or raise TimeoutError once patience is over."""
+        deadline = time.monotonic() + self.patience_s
+        while True:
+            try:
+                return fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            except BlockingIOError as error:
+                if time.monotonic() > deadline:
+                    message = f"another process has been publishing for {self.patience_s:g} s"
+                    raise TimeoutError(message) from error
+                time.sleep(0.1)
+
+    def _check_writable(self) -> None:
+        """Begin to write, and leave it at that."""
+        with contextlib.closing(sqlite3.connect(self.database, timeout=self.patience_s)) as probe:
+            probe.isolation_level = None
+            # A table, since SQLite touches neither file nor journal before something changes.
+            probe.execute("BEGIN IMMEDIATE")
+            probe.execute("CREATE TABLE grasptypes_probe (a)")
+            probe.execute("ROLLBACK")
+
+    def _experiment_of(self, client: mlflow.MlflowClient) -> str:
+        found = client.get_experiment_by_name(self.experiment)
+        if found:
+            return str(found.experiment_id)
+        folder = self.database.parent / "mlruns"
+        return str(client.create_experiment(self.experiment, artifact_location=folder.as_uri()))
 
 
 class OpenStore:
@@ -197,15 +210,20 @@ def publish(
 ) -> int:
     """Write runs, and the models that belong to them.
 
+    The store is locked for one record at a time, so that nobody waits for all of them.
+
     Args:
         models: key of a record to its model's content key and the model.
 
     Returns:
         number of runs that were not there before.
+
+    Raises:
+        InputError: the store cannot be written.
     """
     added = 0
-    with store.opened() as opened:
-        for record in records:
+    for record in records:
+        with store.opened() as opened:
             run, new = opened.upsert(record)
             added += new
             if record.key in models and opened.log_model(run, *models[record.key]):

@@ -1,7 +1,11 @@
 """A real store: nothing twice, rebuilt alike, several processes at once, a model that is served."""
 
+import contextlib
+import fcntl
+import sqlite3
 import subprocess
 import sys
+import time
 from dataclasses import replace
 from pathlib import Path
 
@@ -12,11 +16,13 @@ import torch
 
 import grasptypes.tracking
 from grasptypes.backbone import KINDS, untrained_backbone
+from grasptypes.errors import InputError
 from grasptypes.metrics import softmax
 from grasptypes.predictor import Architecture, Heads
 from grasptypes.predictor_files import Card, load_predictor, write_predictor
+from grasptypes.run_records import RunRecord
 from grasptypes.samples import TYPES
-from grasptypes.tracking import KEY_TAG, LoggedModel, RunRecord, Store, publish
+from grasptypes.tracking import KEY_TAG, LoggedModel, Store, publish
 from grasptypes.weights import weights_file
 
 CHILDREN = tuple(
@@ -60,7 +66,7 @@ def shown(store):
 @pytest.fixture(scope="module")
 def template(tmp_path_factory):
     """A store with the runs in it; making the tables takes seconds, so it is made once."""
-    store = Store(tmp_path_factory.mktemp("store") / "mlflow.db", "test")
+    store = Store(tmp_path_factory.mktemp("store") / "mlflow.db", "test", 60)
     assert publish(store, [PARENT], {}) == 3
     return store
 
@@ -86,7 +92,7 @@ def test_publishing_again_adds_nothing_but_renews_tags(template):
 
 
 def test_a_deleted_store_is_rebuilt_with_the_same_runs(template, tmp_path):
-    again = Store(tmp_path / "mlflow.db", "test")
+    again = Store(tmp_path / "mlflow.db", "test", 60)
     publish(again, [PARENT], {})
     assert shown(again) == shown(template)
 
@@ -107,13 +113,64 @@ def test_two_processes_on_a_new_file(tmp_path):
     code = (
         "import sys; sys.path[:0] = sys.argv[2:]\n"
         "from test_tracking import PARENT, Store, publish\n"
-        "publish(Store(sys.argv[1], 'test'), [PARENT], {})\n"
+        "publish(Store(sys.argv[1], 'test', 60), [PARENT], {})\n"
     )
     paths = [str(Path(__file__).parent), str(Path(__file__).parents[2] / "src")]
     command = [sys.executable, "-c", code, str(tmp_path / "mlflow.db"), *paths]
     processes = [subprocess.Popen(command, stderr=subprocess.PIPE) for _ in range(2)]
     assert [(p.communicate()[1][-300:], p.returncode)[1] for p in processes] == [0, 0]
-    assert len(shown(Store(tmp_path / "mlflow.db", "test"))) == 3
+    assert len(shown(Store(tmp_path / "mlflow.db", "test", 60))) == 3
+
+
+def locked_by_a_publisher(folder):
+    lock = (folder / "mlflow.lock").open("w")
+    fcntl.flock(lock, fcntl.LOCK_EX)
+    return lock
+
+
+def locked_by_a_writer(folder):
+    connection = sqlite3.connect(folder / "mlflow.db")
+    connection.execute("BEGIN EXCLUSIVE")
+    return connection
+
+
+def read_only(folder):
+    """SQLite needs a journal to write; file modes would not stop an administrator."""
+    with contextlib.closing(sqlite3.connect(folder / "mlflow.db")) as database:
+        database.execute("CREATE TABLE a (b)")
+    (folder / "mlflow.db-journal").mkdir()
+
+
+def damaged(folder):
+    (folder / "mlflow.db").write_bytes(b"no database" * 100)
+
+
+def out_of_reach(folder):
+    folder.rmdir()
+    folder.write_text("where the store's folder would be")
+
+
+@pytest.mark.parametrize(
+    ("spoil", "reason"),
+    [
+        (locked_by_a_publisher, "another process"),
+        (locked_by_a_writer, "locked"),
+        (read_only, "disk I/O error|unable to open"),
+        (damaged, "not a database"),
+        (out_of_reach, "exists|directory"),
+    ],
+)
+def test_a_store_that_cannot_be_written_is_named_at_once(tmp_path, spoil, reason):
+    folder = tmp_path / "store"
+    folder.mkdir()
+    kept = spoil(folder)
+    begun = time.monotonic()
+    with pytest.raises(InputError, match=rf"mlflow\.db: cannot be written: .*({reason})") as error:
+        publish(Store(folder / "mlflow.db", "test", 0.2), [PARENT], {})
+    assert time.monotonic() - begun < 5
+    assert "\n" not in str(error.value)
+    if kept is not None:
+        kept.close()
 
 
 def test_a_logged_model_answers_like_the_predictor(template, tmp_path):
