@@ -50,7 +50,7 @@ ui: publish ## the MLflow UI on 127.0.0.1, few processes
 	MLFLOW_SERVER_ENABLE_JOB_EXECUTION=false mlflow ui --backend-store-uri sqlite:///$(CURDIR)/mlflow.db \
 	    --host 127.0.0.1 --port $(UI_PORT) --workers 1
 
-report: setup ## the results as one HTML page that opens offline: build/report.html
+report: setup ## the results with captions as one HTML page that opens offline: build/report.html
 	@mkdir -p build
 	snakemake --report build/report.html
 

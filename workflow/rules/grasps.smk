@@ -67,7 +67,12 @@ rule plot_grasps:
         grasps=expand(rules.synthesize_grasps.output.grasps, object=OBJECTS, task=TASKS),
         visuals=expand(rules.prepare_object.output.visual, object=OBJECTS),
     output:
-        sheet="reports/figures/gallery.png",
+        sheet=report(
+            "reports/figures/gallery.png",
+            caption="../report/gallery.rst",
+            category="Grasps",
+            labels={"subject": "gallery", "kind": "figure"},
+        ),
     log:
         "logs/plot_grasps.log",
     benchmark:

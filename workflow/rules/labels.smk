@@ -9,9 +9,19 @@ rule evaluate_labels:
         own=expand("data/objects/{object}/surface.npz", object=without_scan()),
     output:
         # Kept as they are where the data are lacking.
-        table=update("reports/label_agreement.csv"),
+        table=report(
+            update("reports/label_agreement.csv"),
+            caption="../report/label_agreement.rst",
+            category="Grasp types",
+            labels={"subject": "agreement with people", "kind": "table"},
+        ),
         validation=update("reports/label_cross_validation.csv"),
-        figure=update("reports/figures/label_confusion.png"),
+        figure=report(
+            update("reports/figures/label_confusion.png"),
+            caption="../report/label_agreement.rst",
+            category="Grasp types",
+            labels={"subject": "agreement with people", "kind": "figure"},
+        ),
         # A clone holds the table, but not from which data: without this it would not be made anew.
         done=touch("logs/evaluate_labels.done"),
     log:
@@ -57,8 +67,18 @@ rule compare_distribution:
         samples=rules.label_grasps.output.samples,
         published="assets/published_labels.csv",
     output:
-        table="reports/distribution.csv",
-        figure="reports/figures/distribution.png",
+        table=report(
+            "reports/distribution.csv",
+            caption="../report/distribution.rst",
+            category="Grasp types",
+            labels={"subject": "distribution", "kind": "table"},
+        ),
+        figure=report(
+            "reports/figures/distribution.png",
+            caption="../report/distribution.rst",
+            category="Grasp types",
+            labels={"subject": "distribution", "kind": "figure"},
+        ),
     log:
         "logs/compare_distribution.log",
     benchmark:

@@ -103,7 +103,12 @@ rule train_predictor:
         folds=rules.split_folds.output.folds,
         backbone=rules.prepare_backbone.output.record,
     output:
-        metrics="reports/metrics/{labels}/{model}.csv",
+        metrics=report(
+            "reports/metrics/{labels}/{model}.csv",
+            caption="../report/metrics.rst",
+            category="Folds",
+            labels={"labels": "{labels}", "model": "{model}"},
+        ),
         curves="reports/loss_curves/{labels}/{model}.csv",
         predictions="models/{labels}/{model}/predictions.parquet",
         tensors="models/{labels}/{model}/predictor.safetensors",

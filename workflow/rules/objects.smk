@@ -68,7 +68,12 @@ rule compare_shapes:
         properties=expand(rules.prepare_object.output.properties, object=OBJECTS),
         surfaces=expand(rules.prepare_object.output.surface, object=OBJECTS),
     output:
-        table=update("reports/object_shapes.csv"),
+        table=report(
+            update("reports/object_shapes.csv"),
+            caption="../report/object_shapes.rst",
+            category="Objects",
+            labels={"subject": "shapes against scans", "kind": "table"},
+        ),
         # A clone holds the table, but not from which data: without this it would not be made anew.
         done=touch("logs/compare_shapes.done"),
     log:
@@ -94,7 +99,12 @@ rule plot_contact_maps:
         pictures=expand(
             "reports/figures/contact_maps/{object}_{task}.png", object=OBJECTS, task=TASKS
         ),
-        sheet="reports/figures/contact_maps.png",
+        sheet=report(
+            "reports/figures/contact_maps.png",
+            caption="../report/contact_maps.rst",
+            category="Objects",
+            labels={"subject": "contact maps", "kind": "figure"},
+        ),
     log:
         "logs/plot_contact_maps.log",
     benchmark:

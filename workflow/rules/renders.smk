@@ -27,7 +27,12 @@ rule plot_renders:
     input:
         pictures=expand(rules.render_object.output.pictures, object=OBJECTS),
     output:
-        sheet="reports/figures/renders.png",
+        sheet=report(
+            "reports/figures/renders.png",
+            caption="../report/renders.rst",
+            category="Objects",
+            labels={"subject": "renders", "kind": "figure"},
+        ),
     log:
         "logs/plot_renders.log",
     benchmark:

@@ -7,7 +7,12 @@ rule replay_grasps:
         references=published_data("GRASPTYPES_REFERENCE_MESHES", ".stl"),
     output:
         # Kept as it is where the data are lacking.
-        table=update("reports/replay.csv"),
+        table=report(
+            update("reports/replay.csv"),
+            caption="../report/replay.rst",
+            category="Grasps",
+            labels={"subject": "published poses", "kind": "table"},
+        ),
         # A clone holds the table, but not from which data: without this it would not be made anew.
         done=touch("logs/replay_grasps.done"),
     log:

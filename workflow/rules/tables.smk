@@ -6,9 +6,19 @@ rule tabulate_simulated:
         metrics=expand(rules.train_predictor.output.metrics, labels="simulated", model=MODELS),
         samples=[SAMPLES["simulated"]],
     output:
-        table="reports/table1.csv",
+        table=report(
+            "reports/table1.csv",
+            caption="../report/table1.rst",
+            category="Results",
+            labels={"labels": "simulated", "kind": "table"},
+        ),
         markdown="reports/table1.md",
-        figure="reports/figures/table1.png",
+        figure=report(
+            "reports/figures/table1.png",
+            caption="../report/table1.rst",
+            category="Results",
+            labels={"labels": "simulated", "kind": "figure"},
+        ),
     log:
         "logs/tabulate_simulated.log",
     conda:
@@ -28,9 +38,19 @@ use rule tabulate_simulated as tabulate_published with:
         metrics=expand(rules.train_predictor.output.metrics, labels="published", model=MODELS),
         samples=[SAMPLES["published"]],
     output:
-        table="reports/table1_published.csv",
+        table=report(
+            "reports/table1_published.csv",
+            caption="../report/table1.rst",
+            category="Results",
+            labels={"labels": "published", "kind": "table"},
+        ),
         markdown="reports/table1_published.md",
-        figure="reports/figures/table1_published.png",
+        figure=report(
+            "reports/figures/table1_published.png",
+            caption="../report/table1.rst",
+            category="Results",
+            labels={"labels": "published", "kind": "figure"},
+        ),
     log:
         "logs/tabulate_published.log",
     params:
@@ -46,9 +66,19 @@ use rule tabulate_simulated as tabulate_unseen with:
         metrics=expand(rules.leave_out_objects.output.metrics, labels=LABELS, model=MODELS),
         samples=[SAMPLES[labels] for labels in LABELS],
     output:
-        table="reports/table2.csv",
+        table=report(
+            "reports/table2.csv",
+            caption="../report/table2.rst",
+            category="Unseen objects",
+            labels={"labels": "both", "kind": "table"},
+        ),
         markdown="reports/table2.md",
-        figure="reports/figures/table2.png",
+        figure=report(
+            "reports/figures/table2.png",
+            caption="../report/table2.rst",
+            category="Unseen objects",
+            labels={"labels": "both", "kind": "figure"},
+        ),
     log:
         "logs/tabulate_unseen.log",
     params:
