@@ -19,6 +19,7 @@ class _Parser(argparse.ArgumentParser):
     """Says what is wrong with the arguments on one line."""
 
     def error(self, message: str) -> NoReturn:
+        """End with status 2."""
         self.exit(2, f"error: {message} (see {self.prog} --help)\n")
 
 

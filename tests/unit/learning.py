@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import numpy as np
 import pandas as pd
+import torch
 
+from grasptypes.backbone import untrained_backbone
 from grasptypes.examples import Examples, assemble
 from grasptypes.features import NO_TASK
 from grasptypes.finetuning import FineTuning
@@ -13,6 +17,7 @@ from grasptypes.predictor import VARIANTS
 from grasptypes.protocol import Recipe
 from grasptypes.samples import COUNTS, samples_from_counts
 from grasptypes.training import Schedule
+from grasptypes.weights import Weights, weights_file
 
 TASKS = {"use": {"colour_shift": 10}, "handoff": {"colour_shift": -10}, "show": {"colour_shift": 0}}
 OBJECTS = ("apple", "mug", "pan", "knife")
@@ -63,3 +68,14 @@ def features() -> dict[str, dict[str, np.ndarray]]:
 def examples(model: str) -> Examples:
     """The problem as a variant sees it."""
     return assemble(VARIANTS[model], features(), samples(), folds(), list(TASKS))
+
+
+def random_weights(path: Path) -> Weights:
+    """A weights file for MobileNetV2 with drawn, not learned, numbers."""
+    torch.manual_seed(0)
+    stem = untrained_backbone("mobilenet_v2", 32).blocks.state_dict()
+    state = {f"features.{name}": tensor for name, tensor in stem.items()}
+    state["classifier.1.weight"] = torch.zeros(1000, 1280)
+    state["classifier.1.bias"] = torch.zeros(1000)
+    torch.save(state, path)
+    return weights_file("mobilenet_v2", "test", path)

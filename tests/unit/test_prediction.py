@@ -7,11 +7,12 @@ import pytest
 import torch
 import trimesh
 import yaml
+from learning import random_weights
 from PIL import Image
 from test_environment import ROOT
 
 from grasptypes.__main__ import main
-from grasptypes.backbone import KINDS, untrained_backbone
+from grasptypes.backbone import KINDS
 from grasptypes.checkout import read_yaml
 from grasptypes.errors import InputError
 from grasptypes.metrics import softmax
@@ -30,13 +31,7 @@ PICTURE = np.random.default_rng(1).integers(0, 256, (64, 64, 3), dtype=np.uint8)
 def checkout(tmp_path_factory):
     """A folder with parameters and two models of random weights, for three tasks."""
     root = tmp_path_factory.mktemp("checkout")
-    torch.manual_seed(0)
-    stem = untrained_backbone("mobilenet_v2", 32).blocks.state_dict()
-    state = {f"features.{name}": tensor for name, tensor in stem.items()}
-    state["classifier.1.weight"] = torch.zeros(1000, 1280)
-    state["classifier.1.bias"] = torch.zeros(1000)
-    torch.save(state, root / "random.pth")
-    weights = weights_file("mobilenet_v2", "test", root / "random.pth")
+    weights = random_weights(root / "random.pth")
     for model, tasks in (("task_vector", 3), ("no_task", 0)):
         sizes = Architecture(KINDS["mobilenet_v2"].features, tasks, (8, 8, 8), 6)
         card = Card(

@@ -12,10 +12,10 @@ from pathlib import Path
 import mlflow
 import numpy as np
 import pytest
-import torch
+from learning import random_weights
 
 import grasptypes.tracking
-from grasptypes.backbone import KINDS, untrained_backbone
+from grasptypes.backbone import KINDS
 from grasptypes.errors import InputError
 from grasptypes.metrics import softmax
 from grasptypes.predictor import Architecture, Heads
@@ -23,7 +23,6 @@ from grasptypes.predictor_files import Card, load_predictor, write_predictor
 from grasptypes.run_records import RunRecord
 from grasptypes.samples import TYPES
 from grasptypes.tracking import KEY_TAG, LoggedModel, Store, publish
-from grasptypes.weights import weights_file
 
 CHILDREN = tuple(
     RunRecord(
@@ -175,13 +174,7 @@ def test_a_store_that_cannot_be_written_is_named_at_once(tmp_path, spoil, reason
 
 def test_a_logged_model_answers_like_the_predictor(template, tmp_path):
     """It is self-contained: weights, code and signature travel with it."""
-    torch.manual_seed(0)
-    stem = untrained_backbone("mobilenet_v2", 32).blocks.state_dict()
-    state = {f"features.{name}": tensor for name, tensor in stem.items()}
-    state["classifier.1.weight"] = torch.zeros(1000, 1280)
-    state["classifier.1.bias"] = torch.zeros(1000)
-    torch.save(state, tmp_path / "random.pth")
-    weights = weights_file("mobilenet_v2", "test", tmp_path / "random.pth")
+    weights = random_weights(tmp_path / "random.pth")
     sizes = Architecture(KINDS["mobilenet_v2"].features, 2, (8, 8, 8), 6)
     shifts = {"use": 10, "handoff": -10}
     card = Card(
