@@ -27,7 +27,7 @@ table1: setup ## the main job: from parameters to Table I
 	snakemake -j$(JOBS) reports/table1.csv
 
 demo: setup ## the whole pipeline on 2 objects, in build/demo
-	python -m grasptypes.checkout . build/demo --params tests/small.yaml
+	python -m grasptypes.versions.checkout . build/demo --params tests/small.yaml
 	cd build/demo && snakemake -j$(JOBS) reports/table1.csv && cat reports/table1.md
 
 test: setup ## the default tests
@@ -40,10 +40,10 @@ format: setup ## rewrite files in the project's style
 	ruff check --fix . && ruff format . && snakefmt Snakefile workflow
 
 doctor: setup ## find results edited by hand and settings that would spoil them
-	python -m grasptypes.doctor
+	python -m grasptypes.versions.doctor
 
 publish: setup ## show finished results in MLflow; adds nothing that is there already
-	python -m grasptypes.publishing
+	python -m grasptypes.runs.publishing
 
 ui: publish ## the MLflow UI on 127.0.0.1, few processes
 	@echo "runs: http://127.0.0.1:$(UI_PORT)/#/experiments/1/runs?workflowType=machine_learning"

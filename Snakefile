@@ -11,7 +11,7 @@ min_version("9.17")
 # The code of this checkout, whatever is installed: a copy of the repository must run its own.
 sys.path.insert(0, str(Path(workflow.basedir) / "src"))
 
-from grasptypes.guard import release_dead_lock, use_this_checkout
+from grasptypes.versions.guard import release_dead_lock, use_this_checkout
 
 use_this_checkout(workflow.basedir)
 if workflow.is_main_process:
@@ -39,7 +39,7 @@ wildcard_constraints:
 # MLflow shows what the files hold: results never depend on its store being there.
 onsuccess:
     if any(Path("models").glob("*/*/predictor.json")):
-        shell("python -m grasptypes.publishing || true")
+        shell("python -m grasptypes.runs.publishing || true")
 
 
 rule all:

@@ -10,17 +10,17 @@ from pathlib import Path
 import pandas as pd
 import torch
 
-from grasptypes.backbone import load_backbone
-from grasptypes.examples import assemble
-from grasptypes.features import encodings, extract, read_pictures
-from grasptypes.folds import split
-from grasptypes.metrics import METRICS
+from grasptypes.labels.samples import samples_from_counts
 from grasptypes.params import read_yaml
-from grasptypes.predictor import VARIANTS
-from grasptypes.protocol import recipe_of, try_splits
-from grasptypes.samples import samples_from_counts
-from grasptypes.training import members_by_group
-from grasptypes.weights import find_weights
+from grasptypes.predictors.backbone import load_backbone
+from grasptypes.predictors.examples import assemble
+from grasptypes.predictors.features import encodings, extract, read_pictures
+from grasptypes.predictors.folds import split
+from grasptypes.predictors.metrics import METRICS
+from grasptypes.predictors.predictor import VARIANTS
+from grasptypes.predictors.protocol import recipe_of, try_splits
+from grasptypes.predictors.training import members_by_group
+from grasptypes.predictors.weights import find_weights
 
 
 def main() -> None:

@@ -11,8 +11,8 @@ from pathlib import Path
 import numpy as np
 
 from grasptypes.params import read_yaml
-from grasptypes.renderer import Camera, Studio
-from grasptypes.scene import load_parts
+from grasptypes.renders.renderer import Camera, Studio
+from grasptypes.renders.scene import load_parts
 
 
 def speeds(camera: Camera, visual: Path, views: int, rounds: int) -> tuple[float, float]:

@@ -19,16 +19,16 @@ import numpy as np
 import pybullet
 import yaml
 
-from grasptypes.contact_map import read_contact_map
-from grasptypes.distance_grid import DistanceGrid
+from grasptypes.contact_maps.contact_map import read_contact_map
 from grasptypes.hand import kinematics
-from grasptypes.holding import PhysicsSettings
-from grasptypes.object_files import read_properties
-from grasptypes.physics import Physics, physics, read_body
+from grasptypes.objects.distance_grid import DistanceGrid
+from grasptypes.objects.object_files import read_properties
 from grasptypes.seeds import rng
 from grasptypes.synthesis.candidates import draw_candidates
 from grasptypes.synthesis.energy import closeness, draw_targets, energies
 from grasptypes.synthesis.fields import field
+from grasptypes.synthesis.holding import PhysicsSettings
+from grasptypes.synthesis.physics import Physics, physics, read_body
 from grasptypes.synthesis.search import SearchSettings, Thing, search_session
 from grasptypes.synthesis.settings import sampled_hand, search_settings
 from grasptypes.synthesis.trials import Hand, Problem, ValiditySettings, people, synthesize

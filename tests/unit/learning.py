@@ -8,16 +8,16 @@ import numpy as np
 import pandas as pd
 import torch
 
-from grasptypes.backbone import untrained_backbone
-from grasptypes.examples import Examples, assemble
-from grasptypes.features import NO_TASK
-from grasptypes.finetuning import FineTuning
-from grasptypes.folds import split
-from grasptypes.predictor import VARIANTS
-from grasptypes.protocol import Recipe
-from grasptypes.samples import COUNTS, samples_from_counts
-from grasptypes.training import Schedule
-from grasptypes.weights import Weights, weights_file
+from grasptypes.labels.samples import COUNTS, samples_from_counts
+from grasptypes.predictors.backbone import untrained_backbone
+from grasptypes.predictors.examples import Examples, assemble
+from grasptypes.predictors.features import NO_TASK
+from grasptypes.predictors.finetuning import FineTuning
+from grasptypes.predictors.folds import split
+from grasptypes.predictors.predictor import VARIANTS
+from grasptypes.predictors.protocol import Recipe
+from grasptypes.predictors.training import Schedule
+from grasptypes.predictors.weights import Weights, weights_file
 
 TASKS = {"use": {"colour_shift": 10}, "handoff": {"colour_shift": -10}, "show": {"colour_shift": 0}}
 OBJECTS = ("apple", "mug", "pan", "knife")

@@ -6,13 +6,13 @@ from pathlib import Path
 import numpy as np
 import trimesh
 
-from grasptypes.distance_grid import DistanceGrid
-from grasptypes.object_files import write_collision
+from grasptypes.objects.distance_grid import DistanceGrid
+from grasptypes.objects.object_files import write_collision
 from grasptypes.params import read_yaml
-from grasptypes.physics import RigidObject
 from grasptypes.synthesis.candidates import Person
 from grasptypes.synthesis.fields import Field, field
 from grasptypes.synthesis.hand_model import HandModel, hand_model
+from grasptypes.synthesis.physics import RigidObject
 from grasptypes.synthesis.search import Thing
 
 ROOT = Path(__file__).parents[2]

@@ -19,7 +19,7 @@ from grasptypes.exchange.records import (
     to_position_quaternion,
 )
 from grasptypes.hand import configuration, kinematics
-from grasptypes.published import read_published
+from grasptypes.labels.published import read_published
 
 
 def hands(count=3):

@@ -13,7 +13,7 @@ from typing import Any
 
 import yaml
 
-from grasptypes.checkout import copy_checkout
+from grasptypes.versions.checkout import copy_checkout
 
 ROOT = Path(__file__).parents[2]
 SMALL = ROOT / "tests" / "small.yaml"

@@ -39,7 +39,7 @@ def test_a_changed_parameter_is_noticed_by_both(
 def test_a_changed_module_reruns_what_imports_it_and_a_comment_nothing(
     changed: Repository,
 ) -> None:
-    module = changed.path / "src/grasptypes/grasp_type.py"
+    module = changed.path / "src/grasptypes/labels/grasp_type.py"
     text = module.read_text()
     module.write_text(text + "\n# A remark.\n")
     assert changed.snakemake_is_clean("all")
@@ -61,7 +61,7 @@ def test_a_removed_object_leaves_nothing_behind(changed: Repository) -> None:
     planned = changed.planned("data/samples.csv")
     assert planned["label_grasps"] == 1
     assert planned["prepare_object"] == planned["synthesize_grasps"] == 0
-    changed.run("python", "-m", "grasptypes.prune", PYTHONPATH=str(changed.path / "src"))
+    changed.run("python", "-m", "grasptypes.versions.prune", PYTHONPATH=str(changed.path / "src"))
     left = [path for path in changed.path.glob("data/**/*mug*")]
     assert left == []
 
@@ -71,7 +71,7 @@ def test_a_hand_edited_result_is_found_with_its_cure(changed: Repository) -> Non
     (changed.path / edited).write_bytes(
         (changed.path / "data/grasps/mug/handoff.parquet").read_bytes()
     )
-    doctor = ("python", "-m", "grasptypes.doctor")
+    doctor = ("python", "-m", "grasptypes.versions.doctor")
     source = str(changed.path / "src")
     found = changed.run(*doctor, check=False, PYTHONPATH=source)
     assert f"dvc checkout --force {edited}" in found

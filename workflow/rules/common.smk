@@ -1,11 +1,11 @@
 # What all rules share: the checked parameters, the names to loop over, and content hashes.
-from grasptypes.affinities import read_affinities
+from grasptypes.contact_maps.affinities import read_affinities
 from grasptypes.errors import InputError
-from grasptypes.guard import check_cache_links
-from grasptypes.own_objects import check_every_hold, check_own_objects, measured_map
+from grasptypes.versions.guard import check_cache_links
+from grasptypes.objects.own_objects import check_every_hold, check_own_objects, measured_map
 from grasptypes.params import read_yaml, validate_params
-from grasptypes.provenance import FileHash, code_hash
-from grasptypes.weights import DOWNLOAD_SHA256_START, WEIGHTS_VARIABLE, chosen_weights
+from grasptypes.versions.provenance import FileHash, code_hash
+from grasptypes.predictors.weights import DOWNLOAD_SHA256_START, WEIGHTS_VARIABLE, chosen_weights
 
 SCHEMA = read_yaml(Path(workflow.basedir) / "workflow" / "schemas" / "params.schema.yaml")
 

@@ -2,11 +2,11 @@
 
 from pathlib import Path
 
-from grasptypes.agreement import TYPES
-from grasptypes.distribution import DISTRIBUTION_SCHEMA, compare_distributions, describe
 from grasptypes.jobs import job
-from grasptypes.label_pictures import draw_distribution, save_figure
-from grasptypes.samples import COUNT_SCHEMA, read_samples
+from grasptypes.labels.agreement import TYPES
+from grasptypes.labels.distribution import DISTRIBUTION_SCHEMA, compare_distributions, describe
+from grasptypes.labels.label_pictures import draw_distribution, save_figure
+from grasptypes.labels.samples import COUNT_SCHEMA, read_samples
 from grasptypes.tables import read_table, write_table
 
 

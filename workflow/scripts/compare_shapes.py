@@ -5,7 +5,7 @@ from pathlib import Path
 
 from grasptypes.errors import InputError
 from grasptypes.jobs import job
-from grasptypes.shape_comparison import SHAPE_TABLE, compare_folder
+from grasptypes.objects.shape_comparison import SHAPE_TABLE, compare_folder
 from grasptypes.tables import write_table
 
 VARIABLE = "GRASPTYPES_REFERENCE_MESHES"

@@ -6,7 +6,7 @@ from typing import Any
 
 import pandas as pd
 
-from grasptypes.contact_evidence import (
+from grasptypes.contact_maps.contact_evidence import (
     EVIDENCE_SCHEMA,
     SUMMARY_SCHEMA,
     object_evidence,
@@ -15,8 +15,8 @@ from grasptypes.contact_evidence import (
 )
 from grasptypes.errors import InputError
 from grasptypes.jobs import job
-from grasptypes.object_files import read_surface
-from grasptypes.published import read_published
+from grasptypes.labels.published import read_published
+from grasptypes.objects.object_files import read_surface
 from grasptypes.tables import write_table
 
 

@@ -8,7 +8,9 @@ from typing import Any
 
 import numpy as np
 
-from grasptypes.agreement import (
+from grasptypes.errors import InputError
+from grasptypes.jobs import job
+from grasptypes.labels.agreement import (
     AGREEMENT_SCHEMA,
     THRESHOLD_SCHEMA,
     TYPES,
@@ -18,11 +20,9 @@ from grasptypes.agreement import (
     cross_validate,
     describe_fit,
 )
-from grasptypes.errors import InputError
-from grasptypes.grasp_type import Thresholds, classify
-from grasptypes.jobs import job
-from grasptypes.label_pictures import draw_confusion, save_figure
-from grasptypes.published_data import judge_published, lacking_data
+from grasptypes.labels.grasp_type import Thresholds, classify
+from grasptypes.labels.label_pictures import draw_confusion, save_figure
+from grasptypes.labels.published_data import judge_published, lacking_data
 from grasptypes.tables import write_table
 
 OWN_OBJECTS = Path("data/objects")

@@ -6,11 +6,11 @@ from typing import Any
 
 import torch
 
-from grasptypes.backbone import load_backbone
-from grasptypes.features import encodings, extract, read_pictures
 from grasptypes.files import write_npz
 from grasptypes.jobs import job
-from grasptypes.learning_inputs import read_backbone_record, recorded_weights
+from grasptypes.predictors.backbone import load_backbone
+from grasptypes.predictors.features import encodings, extract, read_pictures
+from grasptypes.predictors.learning_inputs import read_backbone_record, recorded_weights
 
 
 def extract_features(

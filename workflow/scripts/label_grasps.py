@@ -6,13 +6,13 @@ from typing import Any
 
 import pandas as pd
 
-from grasptypes.contacts import ContactSettings
-from grasptypes.dataset import DATASET_SCHEMA, dataset_table, label_grasps, sample_table
-from grasptypes.distance_grid import DistanceGrid
-from grasptypes.grasp_type import Thresholds
-from grasptypes.grasps import GRASP_SCHEMA
 from grasptypes.jobs import job
-from grasptypes.samples import SAMPLE_SCHEMA
+from grasptypes.labels.contacts import ContactSettings
+from grasptypes.labels.dataset import DATASET_SCHEMA, dataset_table, label_grasps, sample_table
+from grasptypes.labels.grasp_type import Thresholds
+from grasptypes.labels.samples import SAMPLE_SCHEMA
+from grasptypes.objects.distance_grid import DistanceGrid
+from grasptypes.synthesis.grasps import GRASP_SCHEMA
 from grasptypes.tables import read_table, write_table
 
 

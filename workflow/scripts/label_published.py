@@ -5,7 +5,7 @@ from pathlib import Path
 
 from grasptypes.errors import InputError
 from grasptypes.jobs import job
-from grasptypes.samples import COUNT_SCHEMA, SAMPLE_SCHEMA, samples_from_counts
+from grasptypes.labels.samples import COUNT_SCHEMA, SAMPLE_SCHEMA, samples_from_counts
 from grasptypes.tables import read_table, write_table
 
 

@@ -6,11 +6,11 @@ from typing import Any
 import torch
 
 from grasptypes.jobs import job
-from grasptypes.problem import read_problem
-from grasptypes.protocol import try_splits
-from grasptypes.results import METRIC_SCHEMA, with_source
+from grasptypes.predictors.problem import read_problem
+from grasptypes.predictors.protocol import try_splits
+from grasptypes.predictors.training import members_by_group
+from grasptypes.reports.results import METRIC_SCHEMA, with_source
 from grasptypes.tables import write_table
-from grasptypes.training import members_by_group
 
 
 def leave_out_objects(

@@ -4,11 +4,11 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from grasptypes.affinities import check_holds
-from grasptypes.contact_map import map_contacts, sample_surface, write_contact_map
+from grasptypes.contact_maps.affinities import check_holds
+from grasptypes.contact_maps.contact_map import map_contacts, sample_surface, write_contact_map
+from grasptypes.contact_maps.measured_contacts import map_measured_contacts, read_probability
 from grasptypes.jobs import job
-from grasptypes.measured_contacts import map_measured_contacts, read_probability
-from grasptypes.object_files import read_properties, read_surface
+from grasptypes.objects.object_files import read_properties, read_surface
 from grasptypes.objects.units import UNITS_M
 from grasptypes.seeds import seed
 

@@ -6,14 +6,14 @@ from typing import Any
 
 import numpy as np
 
-from grasptypes.contact_pictures import studio_of
+from grasptypes.contact_maps.contact_pictures import studio_of
 from grasptypes.files import write_bytes, zip_bytes
-from grasptypes.gallery import grasp_picture
-from grasptypes.grasps import GRASP_SCHEMA
 from grasptypes.hand import configuration
 from grasptypes.jobs import job
-from grasptypes.renderer import Camera, png_bytes
-from grasptypes.scene import load_parts
+from grasptypes.renders.gallery import grasp_picture
+from grasptypes.renders.renderer import Camera, png_bytes
+from grasptypes.renders.scene import load_parts
+from grasptypes.synthesis.grasps import GRASP_SCHEMA
 from grasptypes.tables import read_table
 
 

@@ -4,12 +4,12 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from grasptypes.contact_map import read_contact_map
-from grasptypes.contact_pictures import contact_picture, contact_sheet, studio_of
+from grasptypes.contact_maps.contact_map import read_contact_map
+from grasptypes.contact_maps.contact_pictures import contact_picture, contact_sheet, studio_of
 from grasptypes.files import write_bytes
 from grasptypes.jobs import job
-from grasptypes.object_files import read_surface
-from grasptypes.renderer import Camera, png_bytes
+from grasptypes.objects.object_files import read_surface
+from grasptypes.renders.renderer import Camera, png_bytes
 
 
 def plot_contact_maps(

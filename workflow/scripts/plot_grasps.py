@@ -4,13 +4,13 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from grasptypes.contact_pictures import contact_sheet, studio_of
+from grasptypes.contact_maps.contact_pictures import contact_sheet, studio_of
 from grasptypes.files import write_bytes
-from grasptypes.gallery import best_grasp, grasp_picture
-from grasptypes.grasps import GRASP_SCHEMA
 from grasptypes.jobs import job
-from grasptypes.renderer import Camera, png_bytes
-from grasptypes.scene import load_parts
+from grasptypes.renders.gallery import best_grasp, grasp_picture
+from grasptypes.renders.renderer import Camera, png_bytes
+from grasptypes.renders.scene import load_parts
+from grasptypes.synthesis.grasps import GRASP_SCHEMA
 from grasptypes.tables import read_table
 
 

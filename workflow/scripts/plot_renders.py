@@ -2,9 +2,9 @@
 
 from collections.abc import Sequence
 
-from grasptypes.features import read_pictures
 from grasptypes.jobs import job
-from grasptypes.result_plots import contact_sheet
+from grasptypes.predictors.features import read_pictures
+from grasptypes.reports.result_plots import contact_sheet
 
 
 def plot_renders(archives: Sequence[str], target: str, views: int, columns: int) -> None:

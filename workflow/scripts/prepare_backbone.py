@@ -2,10 +2,10 @@
 
 from pathlib import Path
 
-from grasptypes.backbone import load_backbone
 from grasptypes.jobs import job
-from grasptypes.learning_inputs import write_backbone_record
-from grasptypes.weights import find_weights
+from grasptypes.predictors.backbone import load_backbone
+from grasptypes.predictors.learning_inputs import write_backbone_record
+from grasptypes.predictors.weights import find_weights
 
 
 def prepare_backbone(record: str | Path, timeout_s: float, input_px: int) -> str:

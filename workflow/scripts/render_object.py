@@ -11,8 +11,8 @@ from tqdm import tqdm
 
 from grasptypes.files import write_bytes, zip_bytes
 from grasptypes.jobs import job
-from grasptypes.renderer import Camera, Studio
-from grasptypes.scene import load_parts
+from grasptypes.renders.renderer import Camera, Studio
+from grasptypes.renders.scene import load_parts
 from grasptypes.tables import write_table
 
 POSE = [f"T_object_camera_{row}{column}" for row in range(3) for column in range(4)]

@@ -5,8 +5,8 @@ from pathlib import Path
 
 from grasptypes.errors import InputError
 from grasptypes.jobs import job
-from grasptypes.published import read_published
-from grasptypes.replay import REPLAY_SCHEMA, ReplaySettings, replay
+from grasptypes.labels.published import read_published
+from grasptypes.labels.replay import REPLAY_SCHEMA, ReplaySettings, replay
 from grasptypes.tables import write_table
 
 PUBLISHED = "GRASPTYPES_PUBLISHED_CSV"

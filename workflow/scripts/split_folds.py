@@ -5,8 +5,8 @@ from pathlib import Path
 
 import pandas as pd
 
-from grasptypes.folds import FOLD_SCHEMA, split
 from grasptypes.jobs import job
+from grasptypes.predictors.folds import FOLD_SCHEMA, split
 from grasptypes.tables import write_table
 
 

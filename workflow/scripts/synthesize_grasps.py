@@ -6,13 +6,13 @@ from typing import Any
 
 import numpy as np
 
-from grasptypes.contact_map import read_contact_map
-from grasptypes.distance_grid import DistanceGrid
-from grasptypes.grasps import ATTEMPT_SCHEMA, GRASP_SCHEMA
+from grasptypes.contact_maps.contact_map import read_contact_map
 from grasptypes.jobs import job
-from grasptypes.object_files import read_properties
-from grasptypes.physics import PhysicsSettings, physics, read_body
+from grasptypes.objects.distance_grid import DistanceGrid
+from grasptypes.objects.object_files import read_properties
 from grasptypes.synthesis.fields import field
+from grasptypes.synthesis.grasps import ATTEMPT_SCHEMA, GRASP_SCHEMA
+from grasptypes.synthesis.physics import PhysicsSettings, physics, read_body
 from grasptypes.synthesis.search import Thing
 from grasptypes.synthesis.settings import sampled_hand, search_settings
 from grasptypes.synthesis.trials import Problem, ValiditySettings, synthesize

@@ -6,10 +6,10 @@ import pandas as pd
 
 from grasptypes.files import write_text
 from grasptypes.jobs import job
-from grasptypes.result_plots import plot_table
-from grasptypes.result_text import markdown
-from grasptypes.results import METRIC_SCHEMA, RESULT_SCHEMA, tabulate
-from grasptypes.samples import read_samples
+from grasptypes.labels.samples import read_samples
+from grasptypes.reports.result_plots import plot_table
+from grasptypes.reports.result_text import markdown
+from grasptypes.reports.results import METRIC_SCHEMA, RESULT_SCHEMA, tabulate
 from grasptypes.tables import read_table, write_table
 
 

@@ -6,12 +6,12 @@ from typing import Any
 import torch
 
 from grasptypes.jobs import job
-from grasptypes.predictor_files import write_predictor
-from grasptypes.problem import read_problem
-from grasptypes.protocol import train_final, try_splits
-from grasptypes.results import CURVE_SCHEMA, METRIC_SCHEMA, PREDICTION_SCHEMA, with_source
+from grasptypes.predictors.predictor_files import write_predictor
+from grasptypes.predictors.problem import read_problem
+from grasptypes.predictors.protocol import train_final, try_splits
+from grasptypes.predictors.training import members_by_group
+from grasptypes.reports.results import CURVE_SCHEMA, METRIC_SCHEMA, PREDICTION_SCHEMA, with_source
 from grasptypes.tables import write_table
-from grasptypes.training import members_by_group
 
 
 def train_predictor(

@@ -15,7 +15,7 @@ from typing import Any
 from grasptypes.commands.settings import add_folder, check_target, folder_params
 from grasptypes.errors import InputError
 from grasptypes.objects.units import UNITS_M
-from grasptypes.photos import PhotoLimits, photo_files, read_photo
+from grasptypes.renders.photos import PhotoLimits, photo_files, read_photo
 
 # More rows than these make a picture that no viewer shows.
 MAX_ROWS = 40
@@ -52,7 +52,7 @@ def run(asked: argparse.Namespace) -> str:
     if len(files) == 1:
         read_photo(files[0], limits)  # bad pictures are told before torch takes its seconds
 
-    from grasptypes.prediction import ask, check_task, describe, open_predictor, report
+    from grasptypes.predictors.prediction import ask, check_task, describe, open_predictor, report
 
     labels, model = asked.labels or settings["labels"], asked.model or settings["model"]
     predictor = open_predictor(asked.folder, labels, model)
@@ -76,18 +76,18 @@ def run(asked: argparse.Namespace) -> str:
 
 def _views(asked: argparse.Namespace, params: Mapping[str, Any]) -> Any:
     """Pictures (N, S, S, 3) of the mesh, taken as those the predictors have learned from."""
-    # Before OpenGL: see grasptypes.renderer.
+    # Before OpenGL: see grasptypes.renders.renderer.
     importlib.import_module("torchvision")
-    from grasptypes.mesh_views import mesh_views
+    from grasptypes.renders.mesh_views import mesh_views
 
     block = {"file": str(asked.object), "unit": asked.unit}
     return mesh_views(block, params["objects"], params["renders"], params["predict"]["views"])
 
 
 def _draw(target: Path, shown: list[Any], answers: list[Any], card: Any, task: str) -> None:
-    from grasptypes.label_pictures import save_figure
-    from grasptypes.prediction import sees_task
-    from grasptypes.prediction_pictures import draw_answers, montage
+    from grasptypes.labels.label_pictures import save_figure
+    from grasptypes.predictors.prediction import sees_task
+    from grasptypes.predictors.prediction_pictures import draw_answers, montage
 
     asked = f"for {task}" if sees_task(card) else "whatever the task"
     title = f"{card.model}, {asked}; {card.backbone}, {card.weights}"

@@ -7,8 +7,8 @@ import pandas as pd
 from numpy.typing import ArrayLike
 
 from grasptypes.exchange.records import PosedHands
-from grasptypes.grasp_type import GRASP_TYPES
 from grasptypes.hand import configuration, kinematics
+from grasptypes.labels.grasp_type import GRASP_TYPES
 
 
 def authors_columns(table: pd.DataFrame) -> pd.DataFrame:

@@ -10,11 +10,10 @@ import trimesh
 from manifold3d import Manifold
 from numpy.typing import NDArray
 
-from grasptypes import object_files
-from grasptypes.distance_grid import DistanceGrid
 from grasptypes.files import write_bytes
-from grasptypes.object_files import Properties, Surface
-from grasptypes.objects import collision, inertia, solids
+from grasptypes.objects import collision, inertia, object_files, solids
+from grasptypes.objects.distance_grid import DistanceGrid
+from grasptypes.objects.object_files import Properties, Surface
 from grasptypes.objects.parts import Material, ObjectModel, Part
 
 

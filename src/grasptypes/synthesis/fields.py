@@ -9,7 +9,7 @@ import numba
 import numpy as np
 from numpy.typing import NDArray
 
-from grasptypes.distance_grid import DistanceGrid
+from grasptypes.objects.distance_grid import DistanceGrid
 
 Array = NDArray[np.float64]
 

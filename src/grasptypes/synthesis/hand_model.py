@@ -8,9 +8,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from grasptypes.distance_grid import DistanceGrid
 from grasptypes.hand import kinematics
 from grasptypes.hand.shapes import link_meshes, surface_points
+from grasptypes.objects.distance_grid import DistanceGrid
 from grasptypes.synthesis.fields import Fields, fields
 
 Array = NDArray[np.float64]

@@ -10,14 +10,14 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from grasptypes.contact_map import ContactMap
-from grasptypes.grasps import ENERGY_TERMS
+from grasptypes.contact_maps.contact_map import ContactMap
 from grasptypes.hand import configuration, kinematics
-from grasptypes.physics import Contact, Physics
 from grasptypes.seeds import rng, seed
 from grasptypes.synthesis.candidates import Person
 from grasptypes.synthesis.energy import closeness
+from grasptypes.synthesis.grasps import ENERGY_TERMS
 from grasptypes.synthesis.hand_model import FIRST_DISTAL, FIRST_PROXIMAL, HandModel
+from grasptypes.synthesis.physics import Contact, Physics
 from grasptypes.synthesis.search import Ranked, SearchSettings, Thing, search_session
 
 Array = NDArray[np.float64]

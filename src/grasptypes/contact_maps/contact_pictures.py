@@ -1,0 +1,123 @@
+"""Pictures of contact maps on their objects, from two sides."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import fields
+from typing import Any
+
+import numpy as np
+import trimesh
+from matplotlib import colormaps
+from numpy.typing import ArrayLike, NDArray
+from PIL import Image, ImageDraw
+from scipy.spatial import cKDTree
+
+from grasptypes.contact_maps.contact_map import ContactMap
+from grasptypes.renders.renderer import Camera, Studio
+from grasptypes.renders.scene import Part
+
+Array = NDArray[np.float64]
+
+LEVELS = 24
+
+
+def studio_of(renders: Mapping[str, Any], size_px: int) -> Studio:
+    """The studio of the `renders` section for plain pictures: own colours, no shadow."""
+    shared = {field.name: renders[field.name] for field in fields(Studio)}
+    plain = {"size_px": size_px, "colour_randomisation": 0.0, "shadow_strength": 0.0}
+    return Studio(**{**shared, **plain})
+
+
+def contact_picture(
+    contact_map: ContactMap,
+    contact: ArrayLike,
+    vertices: ArrayLike,
+    faces: ArrayLike,
+    camera: Camera,
+    params: Mapping[str, Any],
+) -> NDArray[np.uint8]:
+    """A contact on the mesh, from the two opposite directions of `params`, side by side.
+
+    Args:
+        contact: (N,) values at the map's points, 0 to 1; scaled to their largest for the colours.
+        vertices: (V, 3) metres.
+        faces: (F, 3) indices.
+        params: `azimuth_rad` and `elevation_rad` of the first view, `edge_m` of the finest mesh.
+
+    Returns:
+        (H, 2 H, 3) picture.
+    """
+    parts = _coloured_parts(contact_map, np.asarray(contact), vertices, faces, params["edge_m"])
+    scene, node, _ = camera.scene(parts)
+    points = np.concatenate([part.vertices for part in parts])
+    sides = []
+    for turn in (0.0, np.pi):
+        pose = look_at(points, params["azimuth_rad"] + turn, params["elevation_rad"], camera.studio)
+        scene.set_pose(node, pose)
+        sides.append(camera.compose(camera.shoot(scene), points, pose))
+    return np.hstack(sides)
+
+
+def contact_sheet(
+    pictures: Mapping[str, NDArray[np.uint8]], columns: int, height_px: int
+) -> NDArray[np.uint8]:
+    """All pictures, each under its name, in rows of `columns`, `height_px` high each."""
+    tiles = []
+    for name, picture in pictures.items():
+        width_px = round(picture.shape[1] * height_px / picture.shape[0])
+        tile = Image.new("RGB", (width_px, height_px + 14), "white")
+        tile.paste(Image.fromarray(picture).resize((width_px, height_px)), (0, 14))
+        ImageDraw.Draw(tile).text((3, 1), name, fill="black")
+        tiles.append(tile)
+    width_px, full_px = tiles[0].size
+    rows = -(-len(tiles) // columns)
+    sheet = Image.new("RGB", (columns * width_px, rows * full_px), "white")
+    for index, tile in enumerate(tiles):
+        sheet.paste(tile, (index % columns * width_px, index // columns * full_px))
+    return np.asarray(sheet)
+
+
+def look_at(points: Array, azimuth_rad: float, elevation_rad: float, studio: Studio) -> Array:
+    """T_object_camera (4, 4) of an upright camera (z up) that frames points (N, 3)."""
+    back = np.array(
+        [
+            np.cos(elevation_rad) * np.cos(azimuth_rad),
+            np.cos(elevation_rad) * np.sin(azimuth_rad),
+            np.sin(elevation_rad),
+        ]
+    )
+    right = np.array([-np.sin(azimuth_rad), np.cos(azimuth_rad), 0.0])
+    rotation = np.column_stack([right, np.cross(back, right), back])
+    centre = (points.min(axis=0) + points.max(axis=0)) / 2
+    seen = (points - centre) @ rotation
+    opening = studio.fill * np.tan(studio.field_of_view_rad / 2)
+    distance_m = float((np.abs(seen[:, :2]).max(axis=1) / opening + seen[:, 2]).max())
+    pose = np.eye(4)
+    pose[:3, :3], pose[:3, 3] = rotation, centre + distance_m * back
+    return pose
+
+
+def _coloured_parts(
+    contact_map: ContactMap, contact: Array, vertices: ArrayLike, faces: ArrayLike, edge_m: float
+) -> list[Part]:
+    """The mesh cut into pieces of nearly the same contact, each with its colour."""
+    fine, triangles = trimesh.remesh.subdivide_to_size(vertices, faces, edge_m, max_iter=20)[:2]
+    mesh = trimesh.Trimesh(fine, triangles, process=False)
+    centres, normals = mesh.triangles_center, mesh.face_normals
+    # Points of the other side of a thin wall lie as near: they must face the same way to count.
+    weight_m = 0.01
+    tree = cKDTree(np.hstack([contact_map.points, weight_m * contact_map.normals]))
+    distance, nearest = tree.query(np.hstack([centres, weight_m * normals]), k=4)
+    weight = 1.0 / (distance + 1e-4)
+    value = np.sum(weight * contact[nearest], axis=1) / weight.sum(axis=1)
+    level = np.minimum((value / max(float(contact.max()), 1e-9) * LEVELS).astype(int), LEVELS - 1)
+    colours = colormaps["turbo"](np.linspace(0.08, 0.95, LEVELS))[:, :3] ** 2.2
+    parts = []
+    for number in np.unique(level):
+        chosen = mesh.faces[level == number]
+        corners = mesh.vertices[chosen].reshape(-1, 3)
+        facing = np.repeat(normals[level == number], 3, axis=0)
+        triangles = np.arange(len(corners)).reshape(-1, 3)
+        parts.append(Part(corners, facing, triangles, colours[number], 0.0, 0.9))
+    return parts

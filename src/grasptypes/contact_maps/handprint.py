@@ -1,0 +1,239 @@
+"""Where a person's hand touches an object that it holds in a given way.
+
+A hand is laid on an object digit by digit. A digit of a power grip lies in a plane and follows the
+convex outline of the object's cut by that plane, as skin spanning a hollow would; a digit of a
+precision grip touches with its pad, where a straight line out of the grip's centre leaves the
+object. Lengths are fractions of the hand's length, so that one description fits every person.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from grasptypes.contact_maps.outline import along_outline, convex_outline
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Hand:
+    """A hand's size (metres); the fields of `proportions` are keys of params.yaml.
+
+    Attributes:
+        length_m: wrist to the tip of the middle finger.
+        breadth_m: across the four fingers' bases.
+        finger_reach_m: along the surface from the palm's centre to a fingertip.
+        thumb_reach_m: the same to the thumb's tip.
+        palm_half_m: half of the touching palm, across the handle.
+        palm_radius_m: of the palm's patch when the fingers are spread.
+        finger_half_width_m: half the breadth of a finger.
+        pad_radius_m: of a fingertip's patch.
+        span_m: farthest that a fingertip reaches from the centre of a precision grip.
+        softness_m: depth by which skin gives way.
+    """
+
+    length_m: float
+    breadth_m: float
+    finger_reach_m: float
+    thumb_reach_m: float
+    palm_half_m: float
+    palm_radius_m: float
+    finger_half_width_m: float
+    pad_radius_m: float
+    span_m: float
+    softness_m: float
+
+    @classmethod
+    def of_length(cls, length_m: float, proportions: dict[str, float]) -> Hand:
+        """A hand from its length and lengths relative to it, without the suffix `_m`."""
+        return cls(length_m, **{f"{key}_m": share * length_m for key, share in proportions.items()})
+
+    def finger_offsets_m(self, count: int = 4) -> Array:
+        """(count,) places of that many neighbouring fingers beside each other, around zero."""
+        return (np.arange(count) - (count - 1) / 2) * self.breadth_m / 4
+
+
+@dataclass(frozen=True)
+class Placement:
+    """Where the hand is (object frame, metres; directions are unit vectors at right angles).
+
+    Attributes:
+        centre_m: (3,) between palm, fingers and thumb.
+        palm_side: (3,) from the centre to the palm.
+        axis: (3,) the fingers lie beside each other along it.
+        closing: (3,) from the thumb to the fingers.
+        fingers: how many fingers touch in a precision grip, 2 to 4.
+    """
+
+    centre_m: Array
+    palm_side: Array
+    axis: Array
+    closing: Array
+    fingers: int = 4
+
+
+@dataclass(frozen=True)
+class Surface:
+    """Points (N, 3) in metres, outward unit normals (N, 3) and which points the hand may touch."""
+
+    points_m: Array
+    normals: Array
+    mask: NDArray[np.bool_]
+
+
+# Directions of thumb and fingers around the approach of a spread hand, degrees from the closing.
+SPREAD_FINGERS_DEG = (-60.0, -20.0, 20.0, 60.0)
+THUMB_DEG = 180.0
+
+
+def handprint(surface: Surface, grip: str, placement: Placement, hand: Hand) -> Array:
+    """Contact (N,) between 0 and 1 of a hand that holds the surface with a grip of the table."""
+    touches = {
+        "wrap": _wrap,
+        "enclose": _enclose,
+        "tripod": _tripod,
+        "pinch": _pinch,
+        "rim": _rim,
+    }[grip](surface, placement, hand)
+    contact = np.zeros(len(surface.points_m))
+    for touch in touches:
+        np.maximum(contact, touch, out=contact)
+    return contact * surface.mask
+
+
+def _wrap(surface: Surface, place: Placement, hand: Hand) -> list[Array]:
+    offsets = hand.finger_offsets_m()
+    fingers = [
+        _trace(surface, place, place.closing, offset, hand.finger_reach_m, hand)
+        for offset in offsets
+    ]
+    thumb = _trace(surface, place, -place.closing, offsets[-1], hand.thumb_reach_m, hand)
+    half_m = hand.breadth_m / 2
+    palm = [
+        _trace(surface, place, side * place.closing, 0.0, hand.palm_half_m, hand, half_m)
+        for side in (1.0, -1.0)
+    ]
+    return [*fingers, thumb, *palm]
+
+
+def _enclose(surface: Surface, place: Placement, hand: Hand) -> list[Array]:
+    directions = _spread(place)
+    reaches = [hand.thumb_reach_m] + [hand.finger_reach_m] * len(SPREAD_FINGERS_DEG)
+    digits = [
+        _trace(surface, place, direction, 0.0, reach_m, hand)
+        for direction, reach_m in zip(directions, reaches, strict=True)
+    ]
+    palm = _exit(surface, place.centre_m, place.palm_side, hand.pad_radius_m, np.inf)
+    return digits if palm is None else [*digits, _pad(surface, palm, hand.palm_radius_m)]
+
+
+def _tripod(surface: Surface, place: Placement, hand: Hand) -> list[Array]:
+    touched = []
+    chosen = (THUMB_DEG, *np.linspace(-60.0, 60.0, place.fingers))
+    for angle_deg in chosen:
+        # A finger that would have to reach too far along a long object moves in beside the others.
+        for share in (1.0, 0.5, 0.0):
+            turn = THUMB_DEG if angle_deg == THUMB_DEG else share * angle_deg
+            direction = _around(place, turn)
+            point = _exit(surface, place.centre_m, direction, hand.pad_radius_m, hand.span_m)
+            if point is not None:
+                touched.append(_pad(surface, point, hand.pad_radius_m))
+                break
+    return touched
+
+
+def _pinch(surface: Surface, place: Placement, hand: Hand) -> list[Array]:
+    return _oppose(surface, place, hand, hand.span_m)
+
+
+def _rim(surface: Surface, place: Placement, hand: Hand) -> list[Array]:
+    """As a pinch, but through the nearest wall, not through the whole object."""
+    return _oppose(surface, place, hand, 2 * hand.pad_radius_m)
+
+
+def _oppose(surface: Surface, place: Placement, hand: Hand, reach_m: float) -> list[Array]:
+    starts = [(0.0, -place.closing)]
+    starts += [(offset, place.closing) for offset in hand.finger_offsets_m(place.fingers)]
+    exits = [
+        _exit(surface, place.centre_m + offset * place.axis, side, hand.pad_radius_m, reach_m)
+        for offset, side in starts
+    ]
+    return [_pad(surface, point, hand.pad_radius_m) for point in exits if point is not None]
+
+
+def _spread(place: Placement) -> list[Array]:
+    return [_around(place, angle) for angle in (THUMB_DEG, *SPREAD_FINGERS_DEG)]
+
+
+def _around(place: Placement, angle_deg: float) -> Array:
+    angle = np.radians(angle_deg)
+    return np.cos(angle) * place.closing + np.sin(angle) * place.axis
+
+
+def _exit(
+    surface: Surface, origin_m: Array, direction: Array, radius_m: float, reach_m: float
+) -> int | None:
+    """Index of the last point facing `direction` on a thick line out of the origin, if any."""
+    offset = surface.points_m - origin_m
+    along = offset @ direction
+    aside = np.linalg.norm(offset - along[:, None] * direction, axis=1)
+    facing = (surface.normals @ direction > 0.35) & surface.mask & (along < reach_m)
+    facing &= (aside < 0.6 * radius_m) & (along > -radius_m)
+    return int(np.argmax(np.where(facing, along, -np.inf))) if facing.any() else None
+
+
+def _pad(surface: Surface, index: int, radius_m: float) -> Array:
+    """A patch (N,) of that radius around a point, on what faces the same way."""
+    distance = np.linalg.norm(surface.points_m - surface.points_m[index], axis=1)
+    return _plateau(distance / radius_m) * _facing(surface.normals @ surface.normals[index])
+
+
+def _trace(
+    surface: Surface,
+    place: Placement,
+    direction: Array,
+    offset_m: float,
+    reach_m: float,
+    hand: Hand,
+    half_width_m: float | None = None,
+) -> Array:
+    """Contact (N,) of a digit from under the palm towards `direction`, `reach_m` along the outline.
+
+    Args:
+        offset_m: of the digit's plane from the centre along the hand's axis.
+        half_width_m: half the digit's breadth; a finger's where it is left out.
+    """
+    width_m = hand.finger_half_width_m if half_width_m is None else half_width_m
+    across = np.cross(place.palm_side, direction)
+    shift = offset_m * place.axis
+    offset = surface.points_m - place.centre_m - shift
+    aside_m = offset @ across
+    plane = np.column_stack([offset @ direction, offset @ place.palm_side])
+    cut = surface.mask & (np.abs(aside_m) < hand.finger_half_width_m)
+    contact = np.zeros(len(offset))
+    outline = convex_outline(plane[cut])
+    if outline is None:
+        return contact
+    near = np.flatnonzero(surface.mask & (np.abs(aside_m) < 1.5 * width_m))
+    place_m, distance_m, normal = along_outline(outline, plane[near])
+    facing = surface.normals[near] @ np.column_stack([direction, place.palm_side])
+    contact[near] = (
+        _plateau(aside_m[near] / width_m)
+        * _plateau(distance_m / hand.softness_m / 2)
+        * _plateau(np.maximum(place_m - reach_m, 0.0) / hand.softness_m)
+        * _facing(np.sum(facing * normal, axis=1))
+    )
+    return contact
+
+
+def _plateau(ratio: Array) -> Array:
+    """1 well below a ratio of 1, 0.5 there, 0 well above: a patch with an edge, not a blur."""
+    return np.exp2(-(np.abs(ratio) ** 4))
+
+
+def _facing(cosine: Array) -> Array:
+    """0 for surfaces turned away from the skin, 1 from 60 degrees on."""
+    return np.clip(2.0 * cosine, 0.0, 1.0)

@@ -1,0 +1,115 @@
+"""Where a person puts the hand for a hold: centre, side of the palm, direction of closing."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+from numpy.typing import NDArray
+
+from grasptypes.contact_maps.affinities import Hold
+from grasptypes.contact_maps.handprint import Hand, Placement, Surface
+
+Array = NDArray[np.float64]
+
+
+def place_hand(
+    surface: Surface,
+    hold: Hold,
+    hand: Hand,
+    params: Mapping[str, float],
+    draw: np.random.Generator,
+) -> tuple[Placement, float]:
+    """Put a hand on the held parts as the hold says, with a person's own deviation from it.
+
+    Args:
+        surface: of the object, its mask on the held parts.
+        params: `tilt_sd_rad` and `roll_sd_rad` of the palm, `slice_m` (thickness of the cut that
+            the centre is taken from), `depth_m` (of the fingertips below a rim).
+
+    Returns:
+        The placement and the height (0 to 1) of its centre along the held parts.
+    """
+    held = surface.points_m[surface.mask]
+    long_axis = _axis(hold.axis, held)
+    height = float(draw.uniform(hold.low, hold.high))
+    centre_m = _centre(held, long_axis, height, params["slice_m"])
+    palm_side = _palm_side(hold, long_axis, params["tilt_sd_rad"], draw)
+    axis = long_axis - (long_axis @ palm_side) * palm_side
+    end_on = np.linalg.norm(axis) < 0.5
+    if end_on:
+        axis = _any_normal(palm_side)
+    axis /= np.linalg.norm(axis)
+    if hold.grip == "rim":
+        centre_m, axis = _rim_centre(held, palm_side, params["depth_m"], draw)
+    roll = draw.uniform(0, 2 * np.pi) if end_on else draw.normal(0.0, params["roll_sd_rad"])
+    if hold.grip != "rim":
+        axis = np.cos(roll) * axis + np.sin(roll) * np.cross(palm_side, axis)
+    # Either hand, and the thumb at either end.
+    axis = axis * draw.choice([-1.0, 1.0])
+    closing = np.cross(palm_side, axis) * draw.choice([-1.0, 1.0])
+    fingers = int(draw.integers(2, 5))
+    return Placement(centre_m, palm_side, axis, closing, fingers), height
+
+
+def _axis(name: str, held: Array) -> Array:
+    """The named axis of the object, or the direction in which the held points extend most."""
+    if name:
+        return np.eye(3)["xyz".index(name)]
+    axis = np.linalg.svd(held - held.mean(axis=0), full_matrices=False)[2][0]
+    return axis * np.sign(axis[np.argmax(np.abs(axis))])
+
+
+def _centre(held: Array, axis: Array, height: float, slice_m: float) -> Array:
+    """Middle of a slice at that height: half way between its extremes, so holes do not matter."""
+    along = held @ axis
+    low, high = along.min(), along.max()
+    at = low + height * (high - low)
+    thickness_m = max(slice_m, 1.01 * np.abs(along - at).min())
+    cut = held[np.abs(along - at) <= thickness_m]
+    aside = cut - np.outer(cut @ axis, axis)
+    return (aside.min(axis=0) + aside.max(axis=0)) / 2 + at * axis
+
+
+def _palm_side(hold: Hold, long_axis: Array, tilt_sd: float, draw: np.random.Generator) -> Array:
+    if hold.approach == "around":
+        side = draw.normal(size=3)
+        side -= (side @ long_axis) * long_axis
+        side /= np.linalg.norm(side)
+    else:
+        side = np.zeros(3)
+        side["xyz".index(hold.approach[1])] = 1.0 if hold.approach[0] == "+" else -1.0
+    tilted = side + draw.normal(0.0, tilt_sd, 3)
+    if hold.grip in ("wrap", "pinch"):
+        # Fingers side by side along the axis close around it, so the palm stands beside it.
+        flat = tilted - (tilted @ long_axis) * long_axis
+        if np.linalg.norm(flat) > 0.3:
+            tilted = flat
+    return tilted / np.linalg.norm(tilted)
+
+
+def _rim_centre(
+    held: Array, palm_side: Array, depth_m: float, draw: np.random.Generator
+) -> tuple[Array, Array]:
+    """A place on the edge that faces the palm, below it by `depth_m`, and the edge's direction."""
+    middle = (held.min(axis=0) + held.max(axis=0)) / 2
+    outward = _any_normal(palm_side)
+    angle = draw.uniform(0, 2 * np.pi)
+    outward = np.cos(angle) * outward + np.sin(angle) * np.cross(palm_side, outward)
+    along = np.cross(palm_side, outward)
+    offset = held - middle
+    sector = (offset @ outward > 0) & (np.abs(offset @ along) < 0.25 * np.abs(offset).max())
+    near = held[sector] if sector.any() else held
+    height = near @ palm_side
+    edge = near[height > height.max() - depth_m]
+    lowest = near[np.abs(height - (height.max() - depth_m)) < 0.5 * depth_m]
+    base = lowest if len(lowest) else edge
+    centre = base.mean(axis=0)
+    return centre + (height.max() - depth_m - centre @ palm_side) * palm_side, along
+
+
+def _any_normal(direction: Array) -> Array:
+    """A unit vector at right angles to a direction, the same for the same direction."""
+    other = np.eye(3)[np.argmin(np.abs(direction))]
+    normal = np.cross(direction, other)
+    return normal / np.linalg.norm(normal)

@@ -1,0 +1,199 @@
+"""How far the rule's labels agree with the people who labelled the published grasps."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from typing import NamedTuple
+
+import numpy as np
+import pandas as pd
+import pandera.pandas as pa
+from numpy.typing import ArrayLike, NDArray
+from scipy.optimize import minimize
+from scipy.special import expit
+from sklearn.metrics import cohen_kappa_score
+
+from grasptypes.hand import configuration, kinematics
+from grasptypes.labels.contacts import ContactSettings, DistanceField, find_contacts
+from grasptypes.labels.grasp_type import (
+    GRASP_TYPES,
+    INVALID,
+    Measures,
+    Thresholds,
+    classify,
+    measure,
+)
+
+Array = NDArray[np.float64]
+
+ALL = "all"
+TYPES = GRASP_TYPES[: GRASP_TYPES.index(INVALID)]
+
+AGREEMENT_SCHEMA = pa.DataFrameSchema(
+    {
+        "object": pa.Column(str, unique=True),
+        "n": pa.Column(int, pa.Check.ge(1)),
+        "accuracy": pa.Column(float, pa.Check.in_range(0, 1)),
+        "kappa": pa.Column(float, pa.Check.in_range(-1, 1)),
+        "fitted_on": pa.Column(str),
+    },
+    strict=True,
+    ordered=True,
+)
+THRESHOLD_SCHEMA = pa.DataFrameSchema(
+    {
+        **AGREEMENT_SCHEMA.columns,
+        **{name: pa.Column(float, pa.Check.gt(0)) for name in Thresholds._fields},
+    },
+    strict=True,
+    ordered=True,
+)
+
+
+class Judged(NamedTuple):
+    """Published grasps of n poses: what people said and what is measured."""
+
+    objects: NDArray[np.str_]
+    """(n,) names."""
+    labels: NDArray[np.int64]
+    """(n,) indices into `TYPES`."""
+    measures: Measures
+    """Fields (n,)."""
+
+    def select(self, chosen: NDArray[np.bool_]) -> Judged:
+        """The grasps where `chosen` (n,) holds."""
+        measures = Measures(*(values[chosen] for values in self.measures))
+        return Judged(self.objects[chosen], self.labels[chosen], measures)
+
+
+def judge(
+    published: pd.DataFrame, fields: Mapping[str, DistanceField], settings: ContactSettings
+) -> Judged:
+    """Measure the published grasps that people gave a type and that have a configuration.
+
+    Args:
+        published: the table of `published.read_published`.
+        fields: distances to the objects, in the frame of the published poses; others are left out.
+    """
+    known = published.hand_configuration.notna() & (published.grasp_type != INVALID)
+    chosen = published[known & published.object.isin(list(fields))]
+    parts = [
+        _measure(np.stack(rows.hand_configuration.tolist()), fields[str(name)], settings)
+        for name, rows in chosen.groupby("object", sort=True)
+    ]
+    ordered = chosen.sort_values("object", kind="stable")
+    labels = np.array([TYPES.index(name) for name in ordered.grasp_type], dtype=np.int64)
+    columns = np.concatenate([np.stack(part) for part in parts], axis=1)
+    return Judged(ordered.object.to_numpy(dtype=str), labels, Measures(*columns))
+
+
+def _measure(numbers: Array, field: DistanceField, settings: ContactSettings) -> Measures:
+    hand = configuration.unpack(numbers)
+    joint_angles = kinematics.couple(hand.dofs_rad)
+    return measure(find_contacts(field, hand.T_object_hand, joint_angles, settings), joint_angles)
+
+
+def agreement(judged: Judged, predicted: NDArray[np.int64], fitted_on: ArrayLike) -> pd.DataFrame:
+    """A row an object and one for all.
+
+    Args:
+        predicted: (n,) indices into `TYPES`.
+        fitted_on: (n,) in words, what the thresholds behind a prediction were fitted on; the same
+            for all poses of an object.
+
+    Returns:
+        A table of `AGREEMENT_SCHEMA`. Kappa is 1 where people and rule know one type only.
+    """
+    fitted_on = np.asarray(fitted_on, dtype=str)
+    rows = [
+        _row(str(name), judged.labels[own], predicted[own], fitted_on[own])
+        for name in np.unique(judged.objects)
+        for own in [judged.objects == name]
+    ]
+    rows.append(_row(ALL, judged.labels, predicted, fitted_on))
+    return pd.DataFrame(rows, columns=list(AGREEMENT_SCHEMA.columns))
+
+
+def _row(
+    name: str,
+    labels: NDArray[np.int64],
+    predicted: NDArray[np.int64],
+    fitted_on: NDArray[np.str_],
+) -> dict[str, str | int | float]:
+    alone = len(np.unique(np.concatenate([labels, predicted]))) == 1
+    kappa = 1.0 if alone else float(cohen_kappa_score(labels, predicted))
+    kinds = np.unique(fitted_on)
+    return {
+        "object": name,
+        "n": len(labels),
+        "accuracy": round(float(np.mean(labels == predicted)), 4),
+        "kappa": round(kappa, 4),
+        "fitted_on": str(kinds[0]) if len(kinds) == 1 else "; ".join(kinds),
+    }
+
+
+def describe_fit(objects: Iterable[str], fitted_on: Iterable[str]) -> list[str]:
+    """For each object whether thresholds fitted on `fitted_on` had seen it, in words."""
+    seen = set(fitted_on)
+    own, others = f"{len(seen)} objects, this one too", f"{len(seen)} other objects"
+    return [own if name in seen else others for name in objects]
+
+
+def confusion(judged: Judged, predicted: NDArray[np.int64]) -> NDArray[np.int64]:
+    """Counts (6, 6): rows are the people's types, columns the rule's."""
+    counts = np.zeros((len(TYPES), len(TYPES)), dtype=np.int64)
+    np.add.at(counts, (judged.labels, predicted), 1)
+    return counts
+
+
+def fit_thresholds(judged: Judged, softness: Thresholds, start: Thresholds) -> Thresholds:
+    """Thresholds with the highest expected accuracy if each branch is taken by a logistic chance.
+
+    The chance depends on the logarithm of measure over threshold, divided by `softness`: a smooth
+    aim has a broad best value, where plain accuracy has many narrow ones.
+
+    Args:
+        softness: widths in natural logarithms.
+        start: where the search begins.
+    """
+    measured = np.log(np.maximum(np.stack(judged.measures), 1e-6))
+    widths = np.asarray(softness)[:, None]
+
+    def loss(log_thresholds: Array) -> float:
+        above = expit((measured - log_thresholds[:, None]) / widths)
+        chance = _type_chances(*above)
+        return -float(chance[judged.labels, np.arange(len(judged.labels))].mean())
+
+    options = {"maxiter": 600, "xatol": 1e-4, "fatol": 1e-7}
+    best = minimize(loss, np.log(start), method="Nelder-Mead", options=options)
+    return Thresholds(*(float(value) for value in np.exp(best.x)))
+
+
+def _type_chances(off_palm: Array, open_hand: Array, three: Array, large: Array) -> Array:
+    """Chances (6, n) of `TYPES` if the tree's branches are taken with chances (n,)."""
+    wrap = (1 - off_palm) * open_hand * (1 - three)
+    small = (1 - off_palm) * (1 - open_hand)
+    sphere = (1 - off_palm) * open_hand * three
+    return np.stack(
+        [wrap * large, wrap * (1 - large), small, sphere, off_palm * three, off_palm * (1 - three)]
+    )
+
+
+def cross_validate(judged: Judged, softness: Thresholds, start: Thresholds) -> pd.DataFrame:
+    """Label each object with thresholds fitted on all others.
+
+    Returns:
+        A table of `THRESHOLD_SCHEMA`: an object's row holds the thresholds it was labelled with,
+        the last row those fitted on all objects (its accuracy is that of the rows above together).
+    """
+    predicted = np.empty(len(judged.labels), dtype=np.int64)
+    names = np.unique(judged.objects)
+    fitted = []
+    for name in names:
+        own = judged.objects == name
+        fitted.append(fit_thresholds(judged.select(~own), softness, start))
+        predicted[own] = classify(judged.select(own).measures, fitted[-1])
+    fitted.append(fit_thresholds(judged, softness, start))
+    words = [f"{len(names) - 1} other objects"] * len(predicted)
+    table = agreement(judged, predicted, words)
+    return pd.concat([table, pd.DataFrame(fitted).round(5)], axis=1)

@@ -1,0 +1,130 @@
+"""The dataset: every grasp with its label and why it has it, and the samples counted from it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import pandera.pandas as pa
+
+from grasptypes.exchange.published_csv import authors_columns
+from grasptypes.hand import configuration, kinematics
+from grasptypes.labels.contacts import ContactSettings, DistanceField, find_contacts
+from grasptypes.labels.grasp_type import GRASP_TYPES, INVALID, Thresholds, explain, measure
+from grasptypes.labels.samples import COUNTS, samples_from_counts
+
+VALID = "valid"
+_MEASURES = {
+    "palm_gap_m": "palm_gap_m",
+    "enclosed_diameter_m": "diameter_m",
+    "sideways_share": "sideways_share",
+    "span_m": "span_m",
+}
+JOINT_COLUMNS = tuple(f"{name}_rad" for name in kinematics.JOINT_NAMES)
+
+DATASET_SCHEMA = pa.DataFrameSchema(
+    {
+        "Index": pa.Column(int, pa.Check.ge(0), unique=True),
+        "Object": pa.Column(str),
+        "Intent": pa.Column(str),
+        "Session": pa.Column(int, pa.Check.ge(1)),
+        "GraspType": pa.Column(str, pa.Check.isin(GRASP_TYPES)),
+        "GraspTypeIndex": pa.Column(int, pa.Check.in_range(1, len(GRASP_TYPES))),
+        "Rank": pa.Column(int, pa.Check.ge(1)),
+        "Error": pa.Column(float),
+        "PoseIndex": pa.Column(int, pa.Check.ge(0)),
+        "HandConfiguration": pa.Column(str, pa.Check(lambda cells: cells.str.count(",") == 16)),
+        "Image": pa.Column(str),
+        "reason": pa.Column(str, description="'valid', or why the grasp is invalid"),
+        "shape": pa.Column(str, pa.Check.isin(GRASP_TYPES[:-1]), description="type by the rule"),
+        "branch": pa.Column(str, description="the way through the tree"),
+        "margin": pa.Column(float, pa.Check.ge(0), description="to the nearest threshold"),
+        "virtual_fingers": pa.Column(int, pa.Check.isin([2, 3])),
+        **{name: pa.Column(float) for name in _MEASURES.values()},
+        "penetration_m": pa.Column(float, pa.Check.ge(0)),
+        "tries": pa.Column(int, pa.Check.ge(1)),
+        **{
+            name: pa.Column(float, pa.Check.in_range(low - 1e-6, high + 1e-6))
+            for name, (low, high) in zip(JOINT_COLUMNS, kinematics.JOINT_LIMITS_RAD, strict=True)
+        },
+    },
+    strict=True,
+    ordered=True,
+    unique=["Object", "Intent", "Session"],
+)
+
+
+def label_grasps(
+    grasps: pd.DataFrame,
+    field: DistanceField,
+    contacts: ContactSettings,
+    thresholds: Thresholds,
+) -> pd.DataFrame:
+    """Label the grasps of one object.
+
+    Args:
+        grasps: of `grasps.GRASP_SCHEMA`, one object.
+        field: distance to the object.
+
+    Returns:
+        `grasps` with the columns grasp_type (Invalid unless valid), shape (the type whatever
+        physics said), branch, margin, virtual_fingers and the measures.
+    """
+    joint_angles = np.stack(grasps.joint_angles_rad.tolist()).astype(np.float64)
+    hand = configuration.unpack(np.stack(grasps.hand_configuration.tolist()))
+    measures = measure(
+        find_contacts(field, hand.T_object_hand, joint_angles, contacts), joint_angles
+    )
+    labels = pd.DataFrame(explain(measures, thresholds), index=grasps.index)
+    labels = labels.rename(columns={"grasp_type": "shape"})
+    labels.insert(0, "grasp_type", labels["shape"].where(grasps.valid, INVALID))
+    for name, column in _MEASURES.items():
+        labels[column] = getattr(measures, name)
+    return pd.concat([grasps, labels], axis=1)
+
+
+def dataset_table(labelled: Sequence[pd.DataFrame]) -> pd.DataFrame:
+    """All labelled grasps in the authors' columns and ours: a table of `DATASET_SCHEMA`.
+
+    Sorted by object, task and session. `PoseIndex` is the grasp's place among those of its session
+    that were tested, and `Image` the screenshot's place below data/.
+    """
+    table = pd.concat(labelled, ignore_index=True)
+    table = table.sort_values(["object", "task", "session"], ignore_index=True)
+    table["pose_index"] = table["rank"]
+    keys = table[["object", "session", "task"]].itertuples(index=False)
+    table["image"] = [image_name(*key) for key in keys]
+    angles = np.stack(table.joint_angles_rad.tolist()).astype(np.float64)
+    ours = pd.DataFrame(
+        {
+            "reason": table.reason.where(~table.valid, VALID),
+            **{name: table[name] for name in ("shape", "branch", "margin", "virtual_fingers")},
+            **{name: table[name] for name in _MEASURES.values()},
+            "penetration_m": table.penetration_m,
+            "tries": table.tries,
+            **dict(zip(JOINT_COLUMNS, angles.T, strict=True)),
+        }
+    )
+    return pd.concat([authors_columns(table), ours.round(9)], axis=1)
+
+
+def image_name(object_name: str, session: int, task: str) -> str:
+    """Where a grasp's screenshot lies, in the authors' manner."""
+    return f"screenshots/{object_name}_{session}_{task}.png"
+
+
+def sample_table(dataset: pd.DataFrame, file: str | Path = "data/grasps.csv") -> pd.DataFrame:
+    """Count the valid grasps of each (object, task): a table of `samples.SAMPLE_SCHEMA`.
+
+    Raises:
+        InputError: an (object, task) without a valid grasp.
+    """
+    types: Mapping[str, str] = dict(zip(GRASP_TYPES, COUNTS, strict=False))
+    counted = pd.crosstab([dataset.Object, dataset.Intent], dataset.GraspType.map(types))
+    counts = counted.reindex(columns=list(COUNTS), fill_value=0).reset_index()
+    everything = dataset[["Object", "Intent"]].drop_duplicates()
+    counts = everything.merge(counts, how="left").fillna(0)
+    counts = counts.rename(columns={"Object": "object", "Intent": "task"})
+    return samples_from_counts(counts.astype(dict.fromkeys(COUNTS, int)), file)

@@ -1,0 +1,48 @@
+"""The published poses with people's labels: where they come from, and their measures."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from grasptypes.labels.agreement import Judged, judge
+from grasptypes.labels.contacts import ContactSettings
+from grasptypes.labels.published import read_published
+from grasptypes.labels.published_objects import object_distances
+
+PUBLISHED, REFERENCES = "GRASPTYPES_PUBLISHED_CSV", "GRASPTYPES_REFERENCE_MESHES"
+SOURCES = {
+    PUBLISHED: "get GraspTypesWithTasks.csv from github.com/nikleer/GraspTypesWithTasks",
+    REFERENCES: "get a folder of <object>.stl from github.com/F1sh-Fang/contactdb_assets",
+}
+
+
+def lacking_data(environment: Mapping[str, str]) -> str:
+    """What is not there of the data that environment variables name, and how to get it.
+
+    Returns:
+        One line, empty if nothing is lacking.
+    """
+    absent = [name for name in SOURCES if not Path(environment.get(name) or "missing").exists()]
+    return "; ".join(
+        f"{name}={environment.get(name, '')} names nothing, {SOURCES[name]}" for name in absent
+    )
+
+
+def judge_published(
+    environment: Mapping[str, str], own: str | Path, scale: float, settings: Mapping[str, Any]
+) -> Judged:
+    """Measure all published poses that have a type, a configuration and an object.
+
+    Args:
+        environment: names the published table and the folder of reference meshes.
+        own: folder of the objects prepared here, for those without a reference mesh.
+        scale: of the reference meshes.
+        settings: `contacts` and `own_frames`, of the `grasp_types` section of params.yaml.
+    """
+    published = read_published(environment[PUBLISHED])
+    names = sorted(published.object.unique())
+    references = environment[REFERENCES]
+    fields = object_distances(names, references, own, scale, settings["own_frames"])
+    return judge(published, fields, ContactSettings(**settings["contacts"]))

@@ -1,0 +1,172 @@
+"""Replay of the published hand poses on the scanned objects: a check of frames, scale, kinematics.
+
+For each pose, with d(p) the exact signed distance (negative inside) of a point on the hand's
+surface to the object's surface, and e(p) the depth of a corner of the object in the hand:
+
+- gap = max(0, min d): 0 if hand and object touch or overlap anywhere;
+- penetration = max(0, max -d, max e): how deep one lies in the other. It can never exceed half
+  the thickness of the object or of the link, whichever is pierced.
+
+The published poses are in a frame whose origin lies below the middle of the object, where it
+stands on the ground. The scans are moved there first: their own origin is the centroid of their
+surface.
+"""
+
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+import pandas as pd
+import pandera.pandas as pa
+import trimesh
+from numpy.typing import NDArray
+
+from grasptypes.errors import InputError
+from grasptypes.hand import configuration, kinematics, shapes
+from grasptypes.objects.distance_grid import signed_distance
+
+Array = NDArray[np.float64]
+
+MM = 1e3
+
+REPLAY_SCHEMA = pa.DataFrameSchema(
+    {
+        "object": pa.Column(str, unique=True),
+        "n": pa.Column(int, pa.Check.ge(1)),
+        "gap_median_mm": pa.Column(float, pa.Check.ge(0)),
+        "gap_p90_mm": pa.Column(float, pa.Check.ge(0)),
+        "penetration_median_mm": pa.Column(float, pa.Check.ge(0)),
+        "beyond_limits": pa.Column(int, pa.Check.ge(0)),
+    },
+    strict=True,
+    ordered=True,
+)
+
+
+class ReplaySettings(NamedTuple):
+    """How finely the hand is sampled and when an angle counts as beyond its limit."""
+
+    object_scale: float
+    """Size of the grasped object relative to its mesh, without unit."""
+    surface_spacing_m: float
+    """Distance between neighbouring points on the hand, metres."""
+    limit_tolerance_rad: float
+    """How far an angle may lie beyond the real hand's limit, radians."""
+
+
+class Fit(NamedTuple):
+    """How hands lie on an object, one row a pose."""
+
+    link_distance_m: Array
+    """(n, 9) smallest signed distance of each link to the object, negative inside."""
+    depth_m: Array
+    """(n,) how deep the object's corners lie in the hand, 0 or more."""
+
+    @property
+    def gap_m(self) -> Array:
+        """(n,) distance between hand and object, 0 if they touch."""
+        apart = np.maximum(self.link_distance_m.min(axis=1), 0.0)
+        return np.where(self.depth_m > 0.0, 0.0, apart)
+
+    @property
+    def penetration_m(self) -> Array:
+        """(n,) how deep hand and object lie in each other, 0 if they do not."""
+        return np.maximum(-self.link_distance_m.min(axis=1), self.depth_m).clip(min=0.0)
+
+
+def read_reference_mesh(path: str | Path, scale: float) -> trimesh.Trimesh:
+    """A scanned object, metres, enlarged and moved into the frame of the published poses.
+
+    That frame's axes are the scan's, its x-y origin is the middle of the object's bounding box,
+    and its x-y plane is the one the object stands on.
+
+    Raises:
+        InputError: the file is no triangle mesh.
+    """
+    try:
+        mesh = trimesh.load_mesh(path)
+    except (ValueError, OSError) as error:
+        raise InputError(path, "", f"cannot be read as a mesh: {error}") from error
+    if not isinstance(mesh, trimesh.Trimesh) or len(mesh.faces) == 0:
+        raise InputError(path, "", "holds no triangles")
+    mesh.apply_scale(scale)
+    lower, upper = mesh.bounds
+    middle = (lower + upper) / 2.0
+    mesh.apply_translation([-middle[0], -middle[1], -lower[2]])
+    return mesh
+
+
+def fit_hands(configurations: Array, mesh: trimesh.Trimesh, spacing_m: float) -> Fit:
+    """Put the hand at each of the configurations (n, 17) and measure how it lies on the object.
+
+    Fingertips are taken as coupled to their finger bases: the published poses hold no more.
+    """
+    hand = configuration.unpack(configurations)
+    poses = kinematics.link_poses(kinematics.couple(hand.dofs_rad))
+    T_object_link = hand.T_object_hand[:, None] @ poses
+    surface = shapes.surface_points(spacing_m)
+    T_object_point = T_object_link[:, surface.link_index]
+    points = np.einsum("npij,pj->npi", T_object_point[..., :3, :3], surface.points_m)
+    points += T_object_point[..., :3, 3]
+    distances = signed_distance(points.reshape(-1, 3), mesh.vertices, mesh.faces)
+    distances = distances.reshape(len(points), -1)
+    starts = np.searchsorted(surface.link_index, np.arange(len(kinematics.LINK_NAMES)))
+    depths = [_depth_in_hand(np.asarray(mesh.vertices), T) for T in T_object_link]
+    return Fit(np.minimum.reduceat(distances, starts, axis=1), np.array(depths))
+
+
+def _depth_in_hand(points: Array, T_object_link: Array) -> float:
+    """How deep the deepest of points (n, 3) lies in a hand with link poses (9, 4, 4), metres."""
+    depth = 0.0
+    for link, T in enumerate(T_object_link):
+        in_link = (points - T[:3, 3]) @ T[:3, :3]
+        lower, upper = shapes.link_meshes()[link].bounds
+        near = in_link[((in_link > lower) & (in_link < upper)).all(axis=1)]
+        depth = max(depth, float(shapes.depth_in_link(link, near).max(initial=0.0)))
+    return depth
+
+
+def replay_object(
+    name: str, configurations: Array, mesh: trimesh.Trimesh, settings: ReplaySettings
+) -> dict[str, str | int | float]:
+    """One row of the replay table: an object's published configurations (n, 17) on its mesh."""
+    fit = fit_hands(configurations, mesh, settings.surface_spacing_m)
+    beyond = kinematics.beyond_limits(
+        configuration.unpack(configurations).dofs_rad,
+        kinematics.DOF_LIMITS_RAD,
+        settings.limit_tolerance_rad,
+    )
+    return {
+        "object": name,
+        "n": len(configurations),
+        "gap_median_mm": round(float(np.median(fit.gap_m)) * MM, 3),
+        "gap_p90_mm": round(float(np.percentile(fit.gap_m, 90)) * MM, 3),
+        "penetration_median_mm": round(float(np.median(fit.penetration_m)) * MM, 3),
+        "beyond_limits": int(beyond.any(axis=1).sum()),
+    }
+
+
+def replay(
+    published: pd.DataFrame, meshes: dict[str, Path], settings: ReplaySettings
+) -> pd.DataFrame:
+    """Replay all published poses that have a configuration, for the objects that have a mesh.
+
+    Args:
+        published: the table of `published.read_published`.
+        meshes: the reference mesh of each object to replay.
+
+    Returns:
+        A table that meets `REPLAY_SCHEMA`, objects in alphabetical order.
+
+    Raises:
+        InputError: a mesh cannot be read.
+    """
+    known = published[published.hand_configuration.notna()]
+    rows = []
+    for name, poses in known.groupby("object", sort=True):
+        if name in meshes:
+            mesh = read_reference_mesh(meshes[name], settings.object_scale)
+            numbers = np.stack(poses.hand_configuration.tolist())
+            rows.append(replay_object(str(name), numbers, mesh, settings))
+    columns = list(REPLAY_SCHEMA.columns)
+    return pd.DataFrame(rows, columns=columns)

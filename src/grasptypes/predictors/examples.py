@@ -1,0 +1,103 @@
+"""What a predictor learns from: one example a picture, or a picture and task."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import pandas as pd
+
+from grasptypes.errors import InputError
+from grasptypes.labels.samples import LABELS, TYPES
+from grasptypes.predictors.features import NO_TASK
+from grasptypes.predictors.predictor import Variant
+
+
+@dataclass(frozen=True)
+class Examples:
+    """Aligned arrays, one row an example.
+
+    Attributes:
+        index: columns object, view, task (empty for joint labels) and fold.
+        inputs: (N, F) float32 features, or (N, H, W, 3) uint8 pictures.
+        task_vectors: (N, T) float32 one-hot, or None for a predictor that is not told the task.
+        labels: (N, types) float32 of 0 and 1.
+        probabilities: (N, types) float32, sum 1.
+    """
+
+    index: pd.DataFrame
+    inputs: np.ndarray
+    task_vectors: np.ndarray | None
+    labels: np.ndarray
+    probabilities: np.ndarray
+
+
+def assemble(
+    variant: Variant,
+    inputs: Mapping[str, Mapping[str, np.ndarray]],
+    samples: pd.DataFrame,
+    folds: pd.DataFrame,
+    tasks: Sequence[str],
+) -> Examples:
+    """The examples of one variant.
+
+    Args:
+        variant: what it sees and answers.
+        inputs: object to encoding to one input a view, (V, ...).
+        samples: table of :mod:`grasptypes.labels.samples`.
+        folds: table of :mod:`grasptypes.predictors.folds`.
+        tasks: in the order of the task vector.
+
+    Raises:
+        InputError: an object or task has no label, or pictures and folds do not match.
+    """
+    label_of = samples.set_index(["object", "task"])[list(LABELS)]
+    asked = [""] if variant.joint_labels else list(tasks)
+    rows, parts, labels = [], [], []
+    for name, group in folds.groupby("object", sort=True):
+        for task in asked:
+            encoding = task if variant.picture_shows_task else NO_TASK
+            part = _inputs(inputs, str(name), encoding, len(group))
+            label = _label(label_of, str(name), [task] if task else list(tasks))
+            rows.append(group.sort_values("view").assign(task=task))
+            parts.append(part)
+            labels.append(np.tile(label, (len(group), 1)))
+    index = pd.concat(rows, ignore_index=True)[["object", "view", "task", "fold"]]
+    label = np.concatenate(labels)
+    return Examples(
+        index=index,
+        inputs=np.concatenate(parts),
+        task_vectors=_one_hot(index["task"], tasks) if variant.task_vector else None,
+        labels=label,
+        probabilities=label / label.sum(axis=1, keepdims=True),
+    )
+
+
+def _inputs(
+    inputs: Mapping[str, Mapping[str, np.ndarray]], name: str, encoding: str, views: int
+) -> np.ndarray:
+    if name not in inputs:
+        raise InputError("data/features", name, "is missing, though it has folds")
+    if encoding not in inputs[name]:
+        raise InputError(f"data/features/{name}.npz", encoding, "this encoding is missing")
+    part = inputs[name][encoding]
+    if len(part) != views:
+        raise InputError(
+            f"data/features/{name}.npz", encoding, f"{len(part)} pictures, but folds of {views}"
+        )
+    return part
+
+
+def _label(label_of: pd.DataFrame, name: str, tasks: Sequence[str]) -> np.ndarray:
+    """(types,) float32: the types of the tasks together."""
+    missing = [task for task in tasks if (name, task) not in label_of.index]
+    if missing:
+        raise InputError("samples", f"{name}, {missing[0]}", "has no label")
+    rows = [label_of.loc[(name, task)].to_numpy(dtype=np.float32) for task in tasks]
+    return np.maximum.reduce(rows).reshape(len(TYPES))
+
+
+def _one_hot(named: pd.Series, tasks: Sequence[str]) -> np.ndarray:
+    position = {task: place for place, task in enumerate(tasks)}
+    return np.eye(len(tasks), dtype=np.float32)[named.map(position).to_numpy()]

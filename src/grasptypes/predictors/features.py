@@ -1,0 +1,91 @@
+"""Frozen features of all pictures of an object, one set an encoding of the task."""
+
+from __future__ import annotations
+
+import io
+import zipfile
+from collections.abc import Mapping
+from pathlib import Path
+
+import numpy as np
+import torch
+from PIL import Image, UnidentifiedImageError
+
+from grasptypes.errors import InputError
+from grasptypes.predictors.backbone import Backbone
+
+NO_TASK = "none"  # the encoding without a task
+
+
+def encodings(tasks: Mapping[str, Mapping[str, int]]) -> dict[str, int]:
+    """What is added to each RGB value: 0 for ``none``, and each task's own shift.
+
+    Args:
+        tasks: the ``tasks`` section of params.yaml.
+    """
+    return {NO_TASK: 0} | {task: int(entry["colour_shift"]) for task, entry in tasks.items()}
+
+
+def shift_colours(pictures: np.ndarray, shift: int) -> np.ndarray:
+    """Show a task in pictures: ``shift`` is added to each RGB value, clipped to [0, 255].
+
+    Paper, section III-D. Args: pictures (..., 3) uint8. Returns: the same shape and type.
+    """
+    return np.clip(pictures.astype(np.int16) + shift, 0, 255).astype(np.uint8)
+
+
+def read_pictures(path: str | Path) -> np.ndarray:
+    """The pictures of a data/renders archive in the order of their names: (N, H, W, 3) uint8.
+
+    Raises:
+        InputError: not an archive, or a member is not a picture.
+    """
+    try:
+        with zipfile.ZipFile(path) as archive:
+            members = {name: archive.read(name) for name in sorted(archive.namelist())}
+    except (OSError, zipfile.BadZipFile) as error:
+        raise InputError(path, "", f"cannot be read as a ZIP archive: {error}") from error
+    pictures = []
+    for name, content in members.items():
+        try:
+            with Image.open(io.BytesIO(content)) as picture:
+                pictures.append(np.asarray(picture.convert("RGB")))
+        except (UnidentifiedImageError, OSError) as error:
+            raise InputError(path, name, f"not a picture: {error}") from error
+    if not pictures:
+        raise InputError(path, "", "holds no pictures")
+    return np.stack(pictures)
+
+
+def extract(
+    backbone: Backbone,
+    pictures: np.ndarray,
+    shifts: Mapping[str, int],
+    precision: str,
+    batch: int,
+) -> dict[str, np.ndarray]:
+    """Features of the pictures in every encoding.
+
+    Args:
+        pictures: (N, H, W, 3) uint8.
+        shifts: encoding to colour shift, see :func:`encodings`.
+        precision: ``fp32`` or ``bf16`` (autocast; more than twice as fast on CPUs that have it).
+        batch: pictures at once; a speed setting that hardly changes the result.
+
+    Returns:
+        encoding to (N, F) float32.
+    """
+    backbone = backbone.to(memory_format=torch.channels_last).eval()
+    features = {}
+    for encoding, shift in shifts.items():
+        tensor = torch.from_numpy(shift_colours(pictures, shift))
+        parts = [forward(backbone, chunk, precision) for chunk in tensor.split(batch)]
+        features[encoding] = torch.cat(parts).numpy()
+    return features
+
+
+@torch.inference_mode()
+def forward(backbone: Backbone, pictures: torch.Tensor, precision: str) -> torch.Tensor:
+    """Features (B, F) float32 of a batch (B, H, W, 3) uint8, without gradients."""
+    with torch.autocast("cpu", torch.bfloat16, enabled=precision == "bf16"):
+        return backbone(pictures).to(torch.float32)

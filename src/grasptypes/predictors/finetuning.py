@@ -1,0 +1,120 @@
+"""Training of a head together with the last blocks of the backbone, or with all of it."""
+
+from __future__ import annotations
+
+import copy
+import logging
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import torch
+
+from grasptypes.predictors.backbone import Backbone, thaw
+from grasptypes.predictors.examples import Examples
+from grasptypes.predictors.predictor import Architecture, Heads, loss
+from grasptypes.predictors.training import Member, Schedule
+from grasptypes.seeds import rng, seed
+
+LOGGER = logging.getLogger("grasptypes")
+
+
+@dataclass(frozen=True)
+class FineTuning:
+    """What of the backbone is trained; the fields are keys of ``predictors`` in params.yaml.
+
+    Attributes:
+        finetune: ``last_blocks`` or ``all``.
+        last_blocks: how many blocks from the end ``last_blocks`` means.
+        learning_rate: of the backbone's blocks; the head has its schedule's.
+        epochs: passes over the training examples.
+        batch: pictures a step.
+    """
+
+    finetune: str
+    last_blocks: int
+    learning_rate: float
+    epochs: int
+    batch: int
+
+
+class Network(torch.nn.Module):
+    """A backbone and one head: pictures and task to logits."""
+
+    def __init__(self, backbone: Backbone, head: Heads) -> None:
+        super().__init__()
+        self.backbone = backbone
+        self.head = head
+
+    def forward(self, pictures: torch.Tensor, task: torch.Tensor | None = None) -> torch.Tensor:
+        """Logits (B, types) of pictures (B, H, W, 3) uint8 and tasks (B, T) one-hot."""
+        features = self.backbone(pictures)
+        return self.head(features[None], None if task is None else task[None])[0]
+
+
+def fine_tune(
+    backbone: Backbone,
+    examples: Examples,
+    member: Member,
+    schedule: Schedule,
+    tuning: FineTuning,
+    key: tuple[str | int, ...],
+) -> tuple[Network, np.ndarray]:
+    """Train a copy of the backbone with a head on one split.
+
+    Batch normalisation keeps its statistics: batches of one fold are too small to renew them.
+
+    Args:
+        examples: with pictures (N, H, W, 3) uint8 as inputs.
+        key: names the computation for its random numbers.
+
+    Returns:
+        the network in evaluation mode, and the training loss of each epoch (epochs,).
+    """
+    names = (*key, member.group, member.seed)
+    torch.manual_seed(seed("dropout", *names))
+    tasks = 0 if examples.task_vectors is None else examples.task_vectors.shape[1]
+    sizes = Architecture(backbone.kind.features, tasks, schedule.hidden, examples.labels.shape[1])
+    network = Network(copy.deepcopy(backbone), Heads(sizes, [names], schedule.dropout)).eval()
+    thawed = thaw(network.backbone, tuning.finetune, tuning.last_blocks)
+    optimiser = torch.optim.AdamW(
+        [
+            {"params": network.head.parameters(), "lr": schedule.learning_rate},
+            {"params": thawed, "lr": tuning.learning_rate},
+        ],
+        weight_decay=schedule.weight_decay,
+    )
+    order = rng("order", *names)
+    losses = np.zeros(tuning.epochs)
+    for epoch in range(tuning.epochs):
+        network.head.train()
+        shuffled = order.permutation(member.train)
+        batches = np.array_split(shuffled, max(1, len(shuffled) // tuning.batch))
+        for rows in batches:
+            logits = network(*_inputs(examples, rows))
+            targets = (torch.from_numpy(t[rows]) for t in (examples.labels, examples.probabilities))
+            value = loss(logits, *targets, schedule.probability_weight).mean()
+            optimiser.zero_grad()
+            value.backward()
+            optimiser.step()
+            losses[epoch] += value.item() / len(batches)
+        LOGGER.info("epoch %d of %d: loss %.4f", epoch + 1, tuning.epochs, losses[epoch])
+    return network.eval(), losses
+
+
+@torch.inference_mode()
+def predict_pictures(
+    network: Network, examples: Examples, rows: Sequence[int] | np.ndarray, batch: int
+) -> np.ndarray:
+    """Logits (len(rows), types) of pictures."""
+    rows = np.asarray(rows)
+    chunks = [rows[start : start + batch] for start in range(0, len(rows), batch)]
+    return torch.cat([network(*_inputs(examples, chunk)) for chunk in chunks]).numpy()
+
+
+def _inputs(examples: Examples, rows: np.ndarray) -> tuple[torch.Tensor, torch.Tensor | None]:
+    tasks = examples.task_vectors
+    return (
+        torch.from_numpy(examples.inputs[rows]),
+        None if tasks is None else torch.from_numpy(tasks[rows]),
+    )

@@ -1,0 +1,90 @@
+"""Reading what predictors learn from, and the record of the backbone that made it."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable, Mapping
+from dataclasses import asdict, dataclass
+from pathlib import Path
+
+import numpy as np
+
+from grasptypes.errors import InputError
+from grasptypes.files import read_npz, write_json
+from grasptypes.predictors.features import encodings, read_pictures, shift_colours
+from grasptypes.predictors.weights import Weights, find_weights
+
+
+@dataclass(frozen=True)
+class BackboneRecord:
+    """Which backbone is in use: what every table, run and figure shows.
+
+    Attributes:
+        backbone: name of the network.
+        weights: name and checksum of its weights.
+        sha256: of the weights file.
+        input_px: size at which it sees a picture.
+    """
+
+    backbone: str
+    weights: str
+    sha256: str
+    input_px: int
+
+
+def write_backbone_record(weights: Weights, input_px: int, path: str | Path) -> None:
+    """Record the weights that were found, without where they lie on this machine."""
+    record = BackboneRecord(weights.backbone, weights.name, weights.sha256, input_px)
+    write_json(path, asdict(record))
+
+
+def read_backbone_record(path: str | Path) -> BackboneRecord:
+    """The record.
+
+    Raises:
+        InputError: not a record.
+    """
+    try:
+        return BackboneRecord(**json.loads(Path(path).read_text(encoding="utf-8")))
+    except (OSError, ValueError, TypeError) as error:
+        raise InputError(path, "", f"not a backbone record: {error}") from error
+
+
+def recorded_weights(record: BackboneRecord) -> Weights:
+    """The recorded weights on this machine; no host is asked.
+
+    Raises:
+        InputError: what is found here is not what was recorded.
+    """
+    weights = find_weights(timeout_s=0)
+    if weights.sha256 != record.sha256:
+        raise InputError(
+            weights.path,
+            "",
+            f"is not the recorded {record.weights} of {record.backbone}; "
+            "remove data/backbone.json to use it",
+        )
+    return weights
+
+
+def read_inputs(
+    paths: Iterable[str | Path], tasks: Mapping[str, Mapping[str, int]]
+) -> dict[str, dict[str, np.ndarray]]:
+    """Object to encoding to one input a view, from files named after their objects.
+
+    Args:
+        paths: features (.npz), or archives of pictures (.zip) that are encoded here.
+        tasks: the ``tasks`` section of params.yaml.
+
+    Returns:
+        arrays (V, F) float32 or (V, H, W, 3) uint8.
+    """
+    inputs = {}
+    for path in map(Path, paths):
+        if path.suffix == ".npz":
+            inputs[path.stem] = read_npz(path)
+        else:
+            pictures = read_pictures(path)
+            shifts = encodings(tasks).items()
+            inputs[path.stem] = {name: shift_colours(pictures, shift) for name, shift in shifts}
+    return inputs

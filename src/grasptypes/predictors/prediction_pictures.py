@@ -1,0 +1,54 @@
+"""Pictures of answers: what the predictor saw beside bars of what it says."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from grasptypes.predictors.prediction import Answer, spelled
+from grasptypes.predictors.predictor_files import Card
+
+CHOSEN, OTHER = "#2a6f97", "#b8c4cc"
+ROW_IN = 2.6
+LABEL_ROOM = 1.18  # right end of the bars' axis, so that a bar of 1 has room for its number
+
+
+def draw_answers(
+    pictures: Sequence[np.ndarray], answers: Sequence[Answer], card: Card, title: str
+) -> Figure:
+    """One row an answer: its picture (H, W, 3) uint8 at the left, its bars at the right."""
+    height_in = ROW_IN * len(answers) + 0.5
+    figure = Figure(figsize=(8.0, height_in), layout="constrained")
+    panels = figure.subplots(len(answers), 2, squeeze=False, width_ratios=(1, 1.6))
+    for (shown, bars), picture, answer in zip(panels, pictures, answers, strict=True):
+        shown.imshow(picture)
+        shown.set_axis_off()
+        shown.set_title(answer.name, fontsize="small")
+        _draw_bars(bars, answer, card)
+    panels[-1][1].set_xlabel("probability; chosen types are dark", fontsize="small")
+    figure.suptitle(title, fontsize="small")
+    return figure
+
+
+def montage(views: np.ndarray) -> np.ndarray:
+    """Views (N, H, W, 3) side by side in rows of about equal number."""
+    columns = int(np.ceil(np.sqrt(len(views))))
+    empty = np.full((-len(views) % columns, *views.shape[1:]), 255, dtype=np.uint8)
+    tiles = np.concatenate([views, empty])
+    rows = [np.hstack(list(tiles[k : k + columns])) for k in range(0, len(tiles), columns)]
+    return np.vstack(rows)
+
+
+def _draw_bars(axes: Axes, answer: Answer, card: Card) -> None:
+    colours = [CHOSEN if yes else OTHER for yes in answer.chosen]
+    kinds = [spelled(kind) for kind in card.types]
+    bars = axes.barh(kinds, answer.probability, color=colours)
+    axes.bar_label(bars, [f"{value:.2f}" for value in answer.probability], padding=3, fontsize=8)
+    axes.invert_yaxis()
+    axes.set_xlim(0, LABEL_ROOM)
+    axes.set_xticks(np.linspace(0, 1, 6))
+    axes.tick_params(labelsize="small")
+    axes.spines[["top", "right"]].set_visible(False)

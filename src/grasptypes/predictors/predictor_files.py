@@ -1,0 +1,152 @@
+"""A trained predictor on disk: tensors as safetensors, everything else as JSON beside them."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import safetensors
+import safetensors.torch
+import torch
+
+from grasptypes.errors import InputError
+from grasptypes.files import write_bytes, write_json
+from grasptypes.predictors.backbone import Backbone, load_backbone
+from grasptypes.predictors.features import shift_colours
+from grasptypes.predictors.finetuning import Network
+from grasptypes.predictors.predictor import VARIANTS, Architecture, Heads
+from grasptypes.predictors.weights import Weights
+
+FROZEN = "none"
+
+
+@dataclass(frozen=True)
+class Card:
+    """All that is needed, beside the tensors, to use a predictor again.
+
+    Attributes:
+        model: name of its variant.
+        labels: label source it was trained on.
+        types: names of its outputs.
+        tasks: in the order of the task vector.
+        colour_shifts: what each task adds to the RGB values of pictures that show it.
+        architecture: sizes of its head.
+        backbone: name of its backbone.
+        weights: name and checksum of the backbone's weights.
+        input_px: size at which the backbone sees a picture.
+        finetune: ``none`` if the backbone is as its weights file has it.
+    """
+
+    model: str
+    labels: str
+    types: tuple[str, ...]
+    tasks: tuple[str, ...]
+    colour_shifts: Mapping[str, int]
+    architecture: Architecture
+    backbone: str
+    weights: str
+    input_px: int
+    finetune: str
+
+
+class Predictor:
+    """A network and its card: pictures and task to logits of grasp types."""
+
+    def __init__(self, network: Network, card: Card) -> None:
+        self.network = network.eval()
+        self.card = card
+
+    def logits(self, pictures: np.ndarray, task: str) -> np.ndarray:
+        """Logits (N, types) of pictures (N, H, W, 3) uint8.
+
+        Raises:
+            InputError: a task the predictor does not know.
+        """
+        card = self.card
+        if task not in card.tasks:
+            raise InputError("task", task, f"unknown; allowed: {', '.join(card.tasks)}")
+        variant = VARIANTS[card.model]
+        if variant.picture_shows_task:
+            pictures = shift_colours(pictures, card.colour_shifts[task])
+        vector = None
+        if variant.task_vector:
+            vector = torch.zeros(len(pictures), len(card.tasks))
+            vector[:, card.tasks.index(task)] = 1
+        with torch.inference_mode():
+            return self.network(torch.from_numpy(np.ascontiguousarray(pictures)), vector).numpy()
+
+
+def write_predictor(
+    heads: Heads, backbone: Backbone | None, card: Card, tensors: str | Path, described: str | Path
+) -> None:
+    """Write a predictor's tensors and card.
+
+    Args:
+        heads: its head.
+        backbone: its backbone if that was fine-tuned, else None: then it is named, not copied.
+    """
+    state = {f"head.{name}": tensor for name, tensor in heads.state_dict().items()}
+    if backbone is not None:
+        state |= {f"backbone.{name}": tensor for name, tensor in backbone.state_dict().items()}
+    write_bytes(tensors, safetensors.torch.save({k: v.contiguous() for k, v in state.items()}))
+    write_json(described, asdict(card))
+
+
+def read_card(described: str | Path) -> Card:
+    """A predictor's card.
+
+    Raises:
+        InputError: not a card.
+    """
+    try:
+        content: dict[str, Any] = json.loads(Path(described).read_text(encoding="utf-8"))
+        sizes = content.pop("architecture")
+        sizes["hidden"] = tuple(sizes["hidden"])
+        lists = {key: tuple(content.pop(key)) for key in ("types", "tasks")}
+        return Card(architecture=Architecture(**sizes), **lists, **content)
+    except (OSError, ValueError, KeyError, TypeError) as error:
+        raise InputError(described, "", f"not a predictor's card: {error}") from error
+
+
+def load_predictor(tensors: str | Path, described: str | Path, weights: Weights) -> Predictor:
+    """A predictor as it was trained.
+
+    Args:
+        weights: the backbone's; they must be those the predictor was trained with.
+
+    Raises:
+        InputError: a damaged file, or other weights.
+    """
+    card = read_card(described)
+    if (card.backbone, card.weights) != (weights.backbone, weights.name):
+        raise InputError(
+            described,
+            "weights",
+            f"trained on {card.backbone}, {card.weights}; "
+            f"here is {weights.backbone}, {weights.name}",
+        )
+    backbone = load_backbone(weights, card.input_px)
+    if card.architecture.inputs != backbone.kind.features:
+        raise InputError(
+            described,
+            "architecture.inputs",
+            f"{card.architecture.inputs} features, but {card.backbone} gives "
+            f"{backbone.kind.features} here",
+        )
+    heads = Heads(card.architecture, [()])
+    try:
+        state = safetensors.torch.load(Path(tensors).read_bytes())
+        heads.load_state_dict(_below("head.", state))
+        if card.finetune != FROZEN:
+            backbone.load_state_dict(_below("backbone.", state))
+    except (OSError, RuntimeError, safetensors.SafetensorError) as error:
+        raise InputError(tensors, "", f"not this predictor's tensors: {error}") from error
+    return Predictor(Network(backbone, heads), card)
+
+
+def _below(prefix: str, state: Mapping[str, torch.Tensor]) -> dict[str, torch.Tensor]:
+    return {n.removeprefix(prefix): t for n, t in state.items() if n.startswith(prefix)}

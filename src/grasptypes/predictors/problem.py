@@ -1,0 +1,91 @@
+"""A learning problem read from files: examples, how to train on them, and with which backbone."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from grasptypes.labels.samples import TYPES, read_samples
+from grasptypes.predictors.backbone import Backbone, load_backbone
+from grasptypes.predictors.examples import Examples, assemble
+from grasptypes.predictors.folds import FOLD_SCHEMA
+from grasptypes.predictors.learning_inputs import (
+    BackboneRecord,
+    read_backbone_record,
+    read_inputs,
+    recorded_weights,
+)
+from grasptypes.predictors.predictor import VARIANTS, Architecture
+from grasptypes.predictors.predictor_files import Card
+from grasptypes.predictors.protocol import Recipe, recipe_of
+from grasptypes.tables import read_table
+
+
+@dataclass(frozen=True)
+class Problem:
+    """What one model learns from one label source.
+
+    Attributes:
+        labels: the label source.
+        model: name of the variant.
+        tasks: the ``tasks`` section of params.yaml.
+        examples: with features as inputs if the recipe is frozen, else with pictures.
+        recipe: how to train.
+        record: the backbone in use.
+        backbone: to be fine-tuned; None if the recipe is frozen.
+    """
+
+    labels: str
+    model: str
+    tasks: Mapping[str, Mapping[str, int]]
+    examples: Examples
+    recipe: Recipe
+    record: BackboneRecord
+    backbone: Backbone | None
+
+    def card(self, architecture: Architecture) -> Card:
+        """The card of a predictor trained on this problem."""
+        return Card(
+            model=self.model,
+            labels=self.labels,
+            types=TYPES,
+            tasks=tuple(self.tasks),
+            colour_shifts={task: entry["colour_shift"] for task, entry in self.tasks.items()},
+            architecture=architecture,
+            backbone=self.record.backbone,
+            weights=self.record.weights,
+            input_px=self.record.input_px,
+            finetune=self.recipe.tuning.finetune,
+        )
+
+
+def read_problem(
+    files: Mapping[str, Any],
+    name: tuple[str, str],
+    tasks: Mapping[str, Mapping[str, int]],
+    settings: Mapping[str, Any],
+) -> Problem:
+    """The problem of a label source and model.
+
+    Args:
+        files: ``inputs`` (features or pictures, a file an object), ``samples``, ``folds`` and
+            ``backbone`` (its record).
+        name: label source and model.
+        tasks: the ``tasks`` section of params.yaml.
+        settings: the ``predictors`` section.
+
+    Raises:
+        InputError: a file that is damaged or does not fit the others.
+    """
+    labels, model = name
+    record, recipe = read_backbone_record(files["backbone"]), recipe_of(settings)
+    examples = assemble(
+        VARIANTS[model],
+        read_inputs(files["inputs"], tasks),
+        read_samples(files["samples"]),
+        read_table(files["folds"], FOLD_SCHEMA),
+        list(tasks),
+    )
+    backbone = None if recipe.frozen else load_backbone(recorded_weights(record), record.input_px)
+    return Problem(labels, model, tasks, examples, recipe, record, backbone)

@@ -1,0 +1,222 @@
+"""Training of heads on frozen features, all folds and seeds of a table at once."""
+
+from __future__ import annotations
+
+import logging
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import torch
+from torch import Tensor
+
+from grasptypes.predictors.examples import Examples
+from grasptypes.predictors.predictor import Architecture, Heads, loss
+from grasptypes.seeds import rng, seed
+
+LOGGER = logging.getLogger("grasptypes")
+
+
+@dataclass(frozen=True)
+class Schedule:
+    """How heads are trained; the fields are keys of the ``predictors`` section of params.yaml.
+
+    Attributes:
+        hidden: outputs of the first three layers.
+        components: directions of the features the first layer is trained in.
+        whitening: 0 leaves the directions' variances, 1 makes them equal.
+        epochs: passes over the training examples.
+        batch: examples a step.
+        learning_rate: the largest, reached after ``warm_up`` of all steps.
+        warm_up: share of the steps in which the learning rate rises; then it falls to zero.
+        weight_decay: of AdamW.
+        dropout: share of the first two layers' outputs left out.
+        probability_weight: of the probability vector's cross-entropy.
+    """
+
+    hidden: tuple[int, int, int]
+    components: int
+    whitening: float
+    epochs: int
+    batch: int
+    learning_rate: float
+    warm_up: float
+    weight_decay: float
+    dropout: float
+    probability_weight: float
+
+
+@dataclass(frozen=True)
+class Member:
+    """One head to be trained: which examples it learns from and is tested on, and its key.
+
+    Attributes:
+        group: name of the split, e.g. the fold; members of a group share their examples.
+        seed: repetition.
+        train: (n,) rows of the examples.
+        test: (m,) rows of the examples; may be empty.
+    """
+
+    group: str
+    seed: int
+    train: np.ndarray
+    test: np.ndarray
+
+
+def members_by_group(groups: Sequence[object], seeds: int) -> list[Member]:
+    """One member a group and seed, tested on the group and trained on all others.
+
+    Args:
+        groups: (N,) the group of every example, such as its fold or its object.
+    """
+    column = np.asarray(groups)
+    return [
+        Member(str(group), k, np.flatnonzero(column != group), np.flatnonzero(column == group))
+        for k in range(seeds)
+        for group in np.unique(column)
+    ]
+
+
+def fit(
+    examples: Examples, members: Sequence[Member], schedule: Schedule, key: tuple[str | int, ...]
+) -> tuple[Heads, np.ndarray]:
+    """Train one head a member.
+
+    The first layer is trained in the leading principal directions of each member's own training
+    features, and takes the features themselves afterwards: a change of coordinates that makes
+    training several times faster and leaves a head of four layers.
+
+    Args:
+        examples: with features as inputs.
+        members: what to train.
+        schedule: how.
+        key: names the computation for its random numbers.
+
+    Returns:
+        the heads in evaluation mode, one a member, for features of F numbers; and the loss curves
+        (epochs, members, 2): training loss and test loss (NaN without test examples).
+    """
+    features = torch.from_numpy(examples.inputs)
+    views = {member.group: member for member in members}
+    projections = {g: _principal(features[m.train], schedule) for g, m in views.items()}
+    projected = {g: (features - c) @ p for g, (c, p) in projections.items()}
+    tasks = 0 if examples.task_vectors is None else examples.task_vectors.shape[1]
+    components = next(iter(projected.values())).shape[1]
+    sizes = Architecture(components, tasks, schedule.hidden, examples.labels.shape[1])
+    keys = [(*key, member.group, member.seed) for member in members]
+    heads = Heads(sizes, keys, schedule.dropout)
+    place = {group: number for number, group in enumerate(projected)}
+    data = _Data(
+        torch.stack(list(projected.values())),
+        torch.tensor([place[member.group] for member in members]),
+        None if examples.task_vectors is None else torch.from_numpy(examples.task_vectors),
+        torch.from_numpy(examples.labels),
+        torch.from_numpy(examples.probabilities),
+    )
+    curves = _descend(heads, data, members, schedule, keys)
+    centres = torch.stack([projections[member.group][0] for member in members])
+    bases = torch.stack([projections[member.group][1] for member in members])
+    return heads.eval().absorb(centres[:, None], bases), curves
+
+
+@torch.inference_mode()
+def predict(heads: Heads, member: int, examples: Examples, rows: np.ndarray) -> np.ndarray:
+    """Logits (len(rows), types) of one of the heads."""
+    one = Heads(heads.architecture, [()])
+    one.load_state_dict({name: t[member : member + 1] for name, t in heads.state_dict().items()})
+    inputs = torch.from_numpy(examples.inputs[rows])[None]
+    tasks = examples.task_vectors
+    task = None if tasks is None else torch.from_numpy(tasks[rows])[None]
+    return one.eval()(inputs, task)[0].numpy()
+
+
+@dataclass(frozen=True)
+class _Data:
+    """Tensors of the examples; ``inputs`` (groups, N, components), ``group`` (members,)."""
+
+    inputs: Tensor
+    group: Tensor
+    tasks: Tensor | None
+    labels: Tensor
+    probabilities: Tensor
+
+    def losses(self, heads: Heads, rows: Tensor, probability_weight: float) -> Tensor:
+        """(members, batch) losses of the rows (members, batch)."""
+        inputs = self.inputs[self.group[:, None], rows]
+        logits = heads(inputs, None if self.tasks is None else self.tasks[rows])
+        return loss(logits, self.labels[rows], self.probabilities[rows], probability_weight)
+
+
+def _principal(features: Tensor, schedule: Schedule) -> tuple[Tensor, Tensor]:
+    """Centre (F,) and projection (F, components) onto the leading principal directions."""
+    centre = features.mean(dim=0)
+    centred = features - centre
+    variances, directions = torch.linalg.eigh(centred.T @ centred / len(features))
+    count = min(schedule.components, len(features) - 1, features.shape[1])
+    variances, directions = variances[-count:].clamp_min(1e-9), directions[:, -count:]
+    scales = variances ** (-schedule.whitening / 2)
+    overall = (variances * scales**2).mean().sqrt()
+    # The sign of an eigenvector is arbitrary; fix it, so that no library decides it.
+    signs = directions.gather(0, directions.abs().argmax(dim=0, keepdim=True)).sign()
+    return centre, directions * signs * scales / overall
+
+
+def _descend(
+    heads: Heads,
+    data: _Data,
+    members: Sequence[Member],
+    schedule: Schedule,
+    keys: Sequence[tuple[str | int, ...]],
+) -> np.ndarray:
+    """Train the heads in place; returns the loss curves (epochs, members, 2)."""
+    torch.manual_seed(seed("dropout", *keys[0]))
+    orders = [rng("order", *key) for key in keys]
+    smallest = min(len(member.train) for member in members)
+    batch = min(schedule.batch, smallest)
+    steps = smallest // batch
+    optimiser = torch.optim.AdamW(
+        heads.parameters(), lr=schedule.learning_rate, weight_decay=schedule.weight_decay
+    )
+    pace = torch.optim.lr_scheduler.OneCycleLR(
+        optimiser,
+        schedule.learning_rate,
+        total_steps=steps * schedule.epochs,
+        pct_start=schedule.warm_up,
+    )
+    curves = np.full((schedule.epochs, len(members), 2), np.nan)
+    for epoch in range(schedule.epochs):
+        shuffled = [
+            order.permutation(member.train)[: steps * batch]
+            for order, member in zip(orders, members, strict=True)
+        ]
+        rows = torch.from_numpy(np.stack(shuffled))
+        total = torch.zeros(len(members))
+        heads.train()
+        for step in range(steps):
+            losses = data.losses(
+                heads, rows[:, step * batch : (step + 1) * batch], schedule.probability_weight
+            ).mean(dim=1)
+            optimiser.zero_grad()
+            losses.sum().backward()
+            optimiser.step()
+            pace.step()
+            total += losses.detach()
+        curves[epoch, :, 0] = (total / steps).numpy()
+        curves[epoch, :, 1] = _test_losses(heads, data, members, schedule)
+        LOGGER.info(
+            "epoch %d of %d: loss %.4f", epoch + 1, schedule.epochs, curves[epoch, :, 0].mean()
+        )
+    return curves
+
+
+@torch.inference_mode()
+def _test_losses(
+    heads: Heads, data: _Data, members: Sequence[Member], schedule: Schedule
+) -> np.ndarray:
+    """(members,) mean loss over as many test examples as the smallest group has."""
+    count = min(len(member.test) for member in members)
+    if count == 0:
+        return np.full(len(members), np.nan)
+    heads.eval()
+    rows = torch.from_numpy(np.stack([member.test[:count] for member in members]))
+    return data.losses(heads, rows, schedule.probability_weight).mean(dim=1).numpy()

@@ -1,0 +1,298 @@
+"""Pictures of objects; the only module that imports pyrender and OpenGL.
+
+A process that uses torch as well must import torchvision before it makes a :class:`Camera`: Mesa
+and torch's compiler each bring an LLVM, and the process crashes when torch's comes second.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import ctypes
+import ctypes.util
+import io
+import logging
+import os
+from collections.abc import Iterator, Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from PIL import Image
+
+from grasptypes.errors import InputError
+from grasptypes.renders.scene import Part, ground_light, recolour, surface_points, viewpoints
+from grasptypes.seeds import rng
+
+if TYPE_CHECKING:
+    import pyrender
+
+LOGGER = logging.getLogger("grasptypes")
+PLATFORM_VARIABLE = "PYOPENGL_PLATFORM"
+_EGL_PLATFORM_DEVICE = 0x313F  # EGL_EXT_platform_device
+
+
+@dataclass(frozen=True)
+class Studio:
+    """How pictures are taken; the fields are the keys of the ``renders`` section of params.yaml.
+
+    Attributes:
+        size_px: height and width of a picture.
+        field_of_view_rad: full angle of the picture.
+        fill: share of the half picture that the object reaches.
+        min_distance_radii: closest camera distance in radii of the object.
+        colour_randomisation: 0 keeps the materials' colours, 1 draws new ones for every view.
+        ambient: linear ambient light.
+        lights: one mapping a light: ``intensity_lux`` and ``direction`` (3,), the way the
+            light travels in the camera frame. The first is the key light, which throws the shadow.
+        background_rgb: (3,) 8-bit colour of the ground at the centre of the picture.
+        vignette: share by which the ground is darker in the corners.
+        ground_elevation_rad: angle at which the camera looks down on the ground.
+        shadow_strength: share of light the deepest shadow takes; 0 leaves the shadow out.
+        shadow_softness_px: standard deviation of the shadow's blur.
+        shadow_fading: the highest point throws exp(-fading) of the lowest point's shadow.
+        shadow_points: surface points that throw the shadow.
+        png_compression: zlib level, 0 to 9.
+    """
+
+    size_px: int
+    field_of_view_rad: float
+    fill: float
+    min_distance_radii: float
+    colour_randomisation: float
+    ambient: float
+    lights: Sequence[Mapping[str, Any]]
+    background_rgb: Sequence[int]
+    vignette: float
+    ground_elevation_rad: float
+    shadow_strength: float
+    shadow_softness_px: float
+    shadow_fading: float
+    shadow_points: int
+    png_compression: int
+
+
+def choose_platform() -> str:
+    """EGL if a display can be opened without a screen, else OSMesa; ``PYOPENGL_PLATFORM`` rules.
+
+    Raises:
+        InputError: neither works; the message names the packages that are missing.
+    """
+    asked = os.environ.get(PLATFORM_VARIABLE)
+    if asked:
+        if asked not in ("egl", "osmesa"):
+            raise InputError(PLATFORM_VARIABLE, "", f"is '{asked}'; allowed: egl, osmesa")
+        return asked
+    if _egl_works():
+        return "egl"
+    with contextlib.suppress(OSError):
+        ctypes.CDLL(ctypes.util.find_library("OSMesa") or "libOSMesa.so.8")
+        return "osmesa"
+    raise InputError(
+        PLATFORM_VARIABLE,
+        "",
+        "no off-screen OpenGL here; install it: apt-get install libegl1 libgl1-mesa-dri libosmesa6",
+    )
+
+
+def _egl_works() -> bool:
+    """Whether EGL finds a device and can initialise a display on it, asked without OpenGL."""
+    try:
+        egl = ctypes.CDLL(ctypes.util.find_library("EGL") or "libEGL.so.1")
+    except OSError:
+        return False
+    egl.eglGetProcAddress.restype = ctypes.c_void_p
+    query = egl.eglGetProcAddress(b"eglQueryDevicesEXT")
+    display = egl.eglGetProcAddress(b"eglGetPlatformDisplayEXT")
+    if not query or not display:
+        return False
+    devices = (ctypes.c_void_p * 1)()
+    found = ctypes.c_int()
+    int_p = ctypes.POINTER(ctypes.c_int)
+    query_devices = ctypes.CFUNCTYPE(
+        ctypes.c_uint, ctypes.c_int, ctypes.POINTER(ctypes.c_void_p), int_p
+    )(query)
+    get_display = ctypes.CFUNCTYPE(ctypes.c_void_p, ctypes.c_uint, ctypes.c_void_p, int_p)(display)
+    if not query_devices(1, devices, ctypes.byref(found)) or found.value < 1:
+        return False
+    handle = ctypes.c_void_p(get_display(_EGL_PLATFORM_DEVICE, devices[0], None))
+    return bool(handle) and bool(egl.eglInitialize(handle, None, None))
+
+
+class Camera:
+    """An off-screen OpenGL context and a studio, used for any number of objects.
+
+    The context, the shader programs and the scene of an object are made once and reused for all
+    its views: only poses and colours change between two pictures.
+    """
+
+    def __init__(self, studio: Studio) -> None:
+        self.platform = choose_platform()
+        # PyOpenGL reads the variable at its first import and never again.
+        os.environ[PLATFORM_VARIABLE] = self.platform
+        import pyrender
+
+        self._pyrender = pyrender
+        self.studio = studio
+        self._renderer = pyrender.OffscreenRenderer(studio.size_px, studio.size_px)
+        self._background = _background(studio)
+        LOGGER.info("rendering through %s", self.platform)
+
+    def __enter__(self) -> Camera:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._renderer.delete()
+
+    def views(self, parts: Sequence[Part], count: int, key: str, seed: int) -> Views:
+        """``count`` random views of an object; the same ones for the same ``key`` and ``seed``."""
+        studio = self.studio
+        vertices = np.concatenate([part.vertices for part in parts])
+        T_object_camera = viewpoints(
+            vertices,
+            count,
+            studio.field_of_view_rad,
+            studio.fill,
+            studio.min_distance_radii,
+            rng("viewpoints", key, seed),
+        )
+        return Views(self, parts, T_object_camera, key, seed)
+
+    def scene(self, parts: Sequence[Part]) -> tuple[pyrender.Scene, pyrender.Node, list[Any]]:
+        """The object, lit by lights that travel with the camera: scene, camera node, materials."""
+        pyrender, studio = self._pyrender, self.studio
+        scene = pyrender.Scene(bg_color=(0, 0, 0, 0), ambient_light=(studio.ambient,) * 3)
+        materials = [_material(pyrender, part) for part in parts]
+        primitives = [
+            pyrender.Primitive(part.vertices, part.normals, indices=part.faces, material=material)
+            for part, material in zip(parts, materials, strict=True)
+        ]
+        scene.add(pyrender.Mesh(primitives))
+        diagonal_m = float(scene.scale)
+        lens = pyrender.PerspectiveCamera(
+            studio.field_of_view_rad, znear=diagonal_m / 50, zfar=diagonal_m * 50, aspectRatio=1.0
+        )
+        camera = scene.add(lens)
+        for light in studio.lights:
+            lamp = pyrender.DirectionalLight(intensity=light["intensity_lux"])
+            scene.add(lamp, pose=_looking_along(np.array(light["direction"])), parent_node=camera)
+        return scene, camera, materials
+
+    def shoot(self, scene: pyrender.Scene) -> np.ndarray:
+        """One picture of the scene on black: (size, size, 4) uint8, alpha is the coverage."""
+        colour, depth_m = self._renderer.render(scene, self._pyrender.RenderFlags.RGBA)
+        if colour.shape[-1] == 4:
+            return colour
+        # Through OSMesa pyrender hands out no alpha and no smoothed edges.
+        return np.dstack([colour, np.where(depth_m > 0, 255, 0).astype(np.uint8)])
+
+    def compose(
+        self, picture: np.ndarray, points: np.ndarray, T_object_camera: np.ndarray
+    ) -> np.ndarray:
+        """Lay a picture of :meth:`shoot` over the ground with its shadow: (size, size, 3) uint8."""
+        studio = self.studio
+        ground = (255 - picture[..., 3]) * np.float32(1 / 255)
+        if studio.shadow_strength > 0:
+            ground *= ground_light(
+                points,
+                T_object_camera,
+                studio.size_px,
+                studio.field_of_view_rad,
+                studio.ground_elevation_rad,
+                _unit(studio.lights[0]["direction"]),
+                studio.shadow_softness_px,
+                studio.shadow_strength,
+                studio.shadow_fading,
+            )
+        colour = self._background * ground[..., None] + picture[..., :3]
+        return np.minimum(colour + np.float32(0.5), 255).astype(np.uint8)
+
+
+class Views:
+    """The views of one object: camera poses now, pictures when they are asked for.
+
+    Attributes:
+        T_object_camera: (N, 4, 4).
+    """
+
+    def __init__(
+        self,
+        camera: Camera,
+        parts: Sequence[Part],
+        T_object_camera: np.ndarray,
+        key: str,
+        seed: int,
+    ) -> None:
+        self._camera, self._parts, self._key, self._seed = camera, parts, key, seed
+        self.T_object_camera = T_object_camera
+
+    def pictures(self) -> Iterator[np.ndarray]:
+        """Pictures in order, (size, size, 3) uint8 each."""
+        return self._finished(self._camera.compose)
+
+    def pngs(self) -> Iterator[bytes]:
+        """The pictures as PNG files, in order."""
+        level = self._camera.studio.png_compression
+        return self._finished(lambda *view: png_bytes(self._camera.compose(*view), level))
+
+    def _finished(self, finish: Any) -> Iterator[Any]:
+        """``finish`` runs beside the drawing of the next view, one view behind it."""
+        count = self._camera.studio.shadow_points
+        points = surface_points(self._parts, count, rng("shadow", self._key, self._seed))
+        with ThreadPoolExecutor(max_workers=1) as pool:
+            pending = None
+            for picture, pose in zip(self._drawn(), self.T_object_camera, strict=True):
+                if pending is not None:
+                    yield pending.result()
+                pending = pool.submit(finish, picture, points, pose)
+            if pending is not None:
+                yield pending.result()
+
+    def _drawn(self) -> Iterator[np.ndarray]:
+        amount = self._camera.studio.colour_randomisation
+        colours = rng("colours", self._key, self._seed)
+        scene, node, materials = self._camera.scene(self._parts)
+        for pose in self.T_object_camera:
+            scene.set_pose(node, pose)
+            if amount > 0:
+                coloured = recolour(self._parts, amount, colours)
+                for material, part in zip(materials, coloured, strict=True):
+                    material.baseColorFactor = (*part.base_colour, 1.0)
+            yield self._camera.shoot(scene)
+
+
+def png_bytes(picture: np.ndarray, compression: int) -> bytes:
+    """A PNG file of a (H, W, 3) uint8 picture."""
+    buffer = io.BytesIO()
+    Image.fromarray(picture).save(buffer, "PNG", compress_level=compression)
+    return buffer.getvalue()
+
+
+def _background(studio: Studio) -> np.ndarray:
+    """(size, size, 3) float32: the empty ground, darker towards the corners."""
+    axis = np.linspace(-1, 1, studio.size_px, dtype=np.float32)
+    falloff = (axis[:, None] ** 2 + axis[None, :] ** 2) / 2
+    shade = 1 - np.float32(studio.vignette) * falloff
+    return shade[..., None] * np.asarray(studio.background_rgb, dtype=np.float32)
+
+
+def _material(pyrender: Any, part: Part) -> Any:
+    return pyrender.MetallicRoughnessMaterial(
+        baseColorFactor=(*part.base_colour, 1.0),
+        metallicFactor=part.metallic,
+        roughnessFactor=part.roughness,
+        doubleSided=True,
+    )
+
+
+def _unit(vector: Sequence[float] | np.ndarray) -> np.ndarray:
+    return np.asarray(vector, dtype=float) / np.linalg.norm(vector)
+
+
+def _looking_along(direction: np.ndarray) -> np.ndarray:
+    """A 4x4 pose whose -z axis points along ``direction``."""
+    z = -_unit(direction)
+    x = _unit(np.cross((0.0, 1.0, 0.0), z) if abs(z[1]) < 0.99 else (1.0, 0.0, 0.0))
+    pose = np.eye(4)
+    pose[:3, 0], pose[:3, 1], pose[:3, 2] = x, np.cross(z, x), z
+    return pose

@@ -1,0 +1,74 @@
+"""The tables of results as Markdown."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+import numpy as np
+import pandas as pd
+
+from grasptypes.reports.results import SHORT, constant_rows
+
+
+def markdown(table: pd.DataFrame) -> str:
+    """A table of :data:`RESULT_SCHEMA` as Markdown, mean ± spread in one cell.
+
+    Without figures of the paper there is no column for them, and a sentence says instead how the
+    models stand to the best constant answer.
+    """
+    paper = table[[f"paper_{short}" for short in SHORT.values()]].notna().any(axis=None)
+    heads = ["model", "labels", "similarity", "accuracy", "precision"]
+    heads += ["paper", "ceiling"] if paper else ["ceiling"]
+    lines = [" | ".join(heads), " | ".join("---" for _ in heads)]
+    for row in table.to_dict("records"):
+        cells = [row["model"], row["labels"]]
+        cells += [_spread(row[f"{s}_mean"], row[f"{s}_sd"]) for s in SHORT.values()]
+        if paper:
+            cells.append(_joined(row[f"paper_{short}"] for short in SHORT.values()))
+        cells.append(_joined(row[f"ceiling_{short}"] for short in ("sim", "acc")))
+        lines.append(" | ".join(cells))
+    used = table[table["n_folds"] > 0]
+    note = "; ".join(
+        f"{labels}: {backbone}, {weights}, {folds} groups x {seeds} seeds"
+        for labels, backbone, weights, folds, seeds in used[
+            ["labels", "backbone", "weights", "n_folds", "n_seeds"]
+        ]
+        .drop_duplicates()
+        .itertuples(index=False)
+    )
+    verdict = "" if paper else f"\n{beside_constant(table)}\n"
+    return "\n".join(f"| {line} |" for line in lines) + f"\n\n{note}\n{verdict}"
+
+
+def beside_constant(table: pd.DataFrame) -> str:
+    """Which models answer worse than the best constant answer, one sentence a label source.
+
+    Args:
+        table: of :data:`RESULT_SCHEMA`.
+    """
+    sentences = []
+    for labels, rows in table[table["labels"] != ""].groupby("labels", sort=False):
+        constant = constant_rows(table, str(labels))["sim_mean"]
+        similarity = rows.set_index("model").loc[constant.index, "sim_mean"]
+        below = similarity.index[similarity < constant]
+        named = ", ".join(f"{m} ({similarity[m]:.3f} < {constant[m]:.3f})" for m in below)
+        sentences.append(
+            f"{labels}: {len(below)} of {len(constant)} models are less similar to the labels of "
+            "unseen objects than the best constant answer, which is chosen knowing all labels"
+            f"{': ' + named if named else ''}."
+        )
+    return "\n\n".join(sentences)
+
+
+def _spread(mean: float, deviation: float) -> str:
+    if np.isnan(mean):
+        return ""
+    return f"{mean:.3f}" if np.isnan(deviation) else f"{mean:.3f} ± {deviation:.3f}"
+
+
+def _joined(values: Iterable[float]) -> str:
+    return " / ".join(
+        f"{value:.2f}" if value == round(value, 2) else f"{value:.3f}"
+        for value in values
+        if not np.isnan(value)
+    )

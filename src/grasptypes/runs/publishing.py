@@ -1,0 +1,140 @@
+"""Show finished results in MLflow. Files are the truth: the store can be rebuilt at any time.
+
+``python -m grasptypes.runs.publishing`` publishes what the current folder holds; doing it again
+adds nothing.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import logging
+import subprocess
+import sys
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+import grasptypes.errors
+from grasptypes.errors import InputError
+from grasptypes.params import read_yaml
+from grasptypes.predictors.features import read_pictures
+from grasptypes.predictors.learning_inputs import read_backbone_record, recorded_weights
+from grasptypes.predictors.predictor_files import read_card
+from grasptypes.predictors.weights import Weights
+from grasptypes.runs.run_records import Finished, file_digest, run_record, serving_requirements
+from grasptypes.runs.tracking import LoggedModel, Store, publish
+
+logger = logging.getLogger(__name__)
+
+# What every run tells of the data it was made from: files, and folders as a whole.
+VERSIONED = (
+    "dvc.lock",
+    "data/backbone.json",
+    "data/samples.csv",
+    "data/published_samples.csv",
+    "data/folds.csv",
+    "data/renders",
+    "data/features",
+)
+
+
+def finished_models(root: Path) -> list[Finished]:
+    """Every model and label source whose files are all there, in the order of their names."""
+    found = []
+    for card in sorted(root.glob("models/*/*/predictor.json")):
+        name = Path(*card.parts[-3:-1])
+        metrics = root / "reports/metrics" / name.with_suffix(".csv")
+        curves = root / "reports/loss_curves" / name.with_suffix(".csv")
+        files = Finished(metrics, curves, card.with_name("predictor.safetensors"), card)
+        if metrics.is_file() and curves.is_file() and files.tensors.is_file():
+            found.append(files)
+    return found
+
+
+def version_tags(root: Path) -> dict[str, str]:
+    """The commit, whether the checkout differs from it, and checksums of the data."""
+    tags = {f"sha256.{name}": checksum(root / name) for name in VERSIONED if (root / name).exists()}
+    commit = _git(root, "rev-parse", "HEAD")
+    if commit:
+        tags["mlflow.source.git.commit"] = commit
+        tags["git.dirty"] = str(bool(_git(root, "status", "--porcelain", "--untracked-files=no")))
+    return tags
+
+
+def checksum(path: Path) -> str:
+    """SHA-256 of a file, or of what ``sha256sum *`` prints in a folder."""
+    if path.is_file():
+        return file_digest(path)
+    lines = [f"{file_digest(file)}  {file.name}\n" for file in sorted(path.iterdir())]
+    return hashlib.sha256("".join(lines).encode()).hexdigest()
+
+
+def publish_runs(
+    finished: Sequence[Finished], root: Path, tags: Mapping[str, str], params: Mapping[str, Any]
+) -> int:
+    """Upsert a parent run for each finished model, its folds below it, and its predictor.
+
+    Without the backbone's weights on this machine the runs are published, the predictors are not.
+
+    Args:
+        params: the whole of params.yaml.
+
+    Returns:
+        how many runs are new.
+    """
+    pairs = [(run_record(files, params["predictors"], tags), files) for files in finished]
+    models: dict[str, tuple[str, LoggedModel]] = {}
+    try:
+        weights = recorded_weights(read_backbone_record(root / "data/backbone.json"))
+    except InputError as error:
+        logger.warning("runs are published without their predictors: %s", error)
+    else:
+        example = read_pictures(min((root / "data/renders").glob("*.zip")))[:1]
+        models = {
+            record.key: (file_digest(files.tensors), _servable(files, weights, example))
+            for record, files in pairs
+        }
+    settings = params["tracking"]
+    store = Store(root / settings["database"], settings["experiment"], settings["patience_s"])
+    return publish(store, [record for record, _ in pairs], models)
+
+
+def _servable(files: Finished, weights: Weights, example: np.ndarray) -> LoggedModel:
+    """The predictor with all it needs to answer; example (1, H, W, 3) uint8."""
+    card = read_card(files.card)
+    return LoggedModel(
+        f"{card.labels}_{card.model}",
+        {"tensors": files.tensors, "card": files.card, "weights": weights.path},
+        Path(grasptypes.errors.__file__).parent,
+        serving_requirements(),
+        example,
+        card.tasks[0],
+        len(card.types),
+    )
+
+
+def _git(root: Path, *arguments: str) -> str:
+    """What git prints; empty outside a checkout."""
+    command = ["git", "-C", str(root), *arguments]
+    return subprocess.run(command, capture_output=True, text=True, check=False).stdout.strip()
+
+
+def main() -> None:
+    """Publish the current folder's models; bad input ends with one line."""
+    logging.basicConfig(level=logging.INFO, format="%(message)s")
+    root = Path.cwd()
+    try:
+        params = read_yaml(root / "params.yaml")
+        finished = finished_models(root)
+        if not finished:
+            raise InputError("models", "", "holds no finished predictor; run snakemake first")
+        new = publish_runs(finished, root, version_tags(root), params)
+    except InputError as error:
+        sys.exit(f"error: {error}")
+    logger.info("%s: %d models, %d new runs", params["tracking"]["database"], len(finished), new)
+
+
+if __name__ == "__main__":
+    main()

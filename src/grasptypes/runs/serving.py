@@ -1,0 +1,72 @@
+"""A predictor as MLflow serves it: pictures and tasks in, probabilities out."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import mlflow
+import numpy as np
+from mlflow.exceptions import MlflowException
+from mlflow.protos.databricks_pb2 import INVALID_PARAMETER_VALUE
+from mlflow.pyfunc import PythonModel, PythonModelContext
+
+from grasptypes.errors import InputError
+from grasptypes.predictors.metrics import softmax
+from grasptypes.predictors.predictor_files import load_predictor, read_card
+from grasptypes.predictors.weights import weights_file
+
+
+class GraspTypePredictor(PythonModel):
+    """The pyfunc model; its artifacts are ``tensors``, ``card`` and ``weights``."""
+
+    def load_context(self, context: PythonModelContext) -> None:
+        """Read the predictor from the artifacts."""
+        artifacts = {name: Path(path) for name, path in context.artifacts.items()}
+        backbone = read_card(artifacts["card"]).backbone
+        weights = weights_file(backbone, "model", artifacts["weights"])
+        self._predictor = load_predictor(artifacts["tensors"], artifacts["card"], weights)
+
+    def predict(  # type: ignore[no-untyped-def]  # MLflow takes a hint here as a schema
+        self,
+        context: PythonModelContext,
+        model_input,
+        params: dict[str, Any] | None = None,
+    ) -> dict[str, np.ndarray]:
+        """Softmax and sigmoid of each picture's logits.
+
+        Args:
+            model_input: ``image`` (N, H, W, 3) uint8 and ``task`` (N,) names.
+
+        Returns:
+            ``probability`` and ``sigmoid``, (N, types) float32 each.
+
+        Raises:
+            MlflowException: an unknown task, or not one task a picture.
+        """
+        pictures = np.asarray(model_input["image"], dtype=np.uint8)
+        asked = np.asarray(model_input["task"]).astype(str).reshape(-1)
+        outputs = len(self._predictor.card.types)
+        logits = np.zeros((len(pictures), outputs), dtype=np.float32)
+        if len(asked) != len(pictures):
+            raise _refusal(f"{len(pictures)} images, but {len(asked)} tasks: one each is needed")
+        if pictures.ndim != 4 or min(pictures.shape) == 0:
+            raise _refusal(f"image has shape {pictures.shape} instead of (N, height, width, 3)")
+        for task in sorted(set(asked)):
+            try:
+                logits[asked == task] = self._predictor.logits(pictures[asked == task], task)
+            except InputError as error:
+                raise _refusal(str(error)) from error
+        sigmoid = 1 / (1 + np.exp(-logits))
+        return {
+            "probability": softmax(logits).astype(np.float32),
+            "sigmoid": sigmoid.astype(np.float32),
+        }
+
+
+def _refusal(message: str) -> MlflowException:
+    """What the server answers with status 400, without a stack trace."""
+    return MlflowException(message, INVALID_PARAMETER_VALUE)
+
+
+mlflow.models.set_model(GraspTypePredictor())

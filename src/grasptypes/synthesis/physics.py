@@ -1,0 +1,250 @@
+"""Does a grasp hold? The only module that knows PyBullet; quaternions are xyzw in here alone.
+
+A test has a world of its own: everything is loaded anew after a reset, in the same order, so its
+result cannot depend on the tests before it. The hand's base is fixed, its motors push with a
+limited force, the object is free. It is squeezed without gravity first, then gravity acts.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import pybullet
+from numpy.typing import NDArray
+from scipy.spatial.transform import Rotation
+
+from grasptypes.hand import kinematics
+from grasptypes.objects.object_files import read_properties
+from grasptypes.poses import inverse
+from grasptypes.synthesis.holding import Contact, Held, Motors, PhysicsSettings
+
+Array = NDArray[np.float64]
+
+DIRECTIONS = np.concatenate([-np.eye(3)[::-1], np.eye(3)[::-1]])
+"""(6, 3) ways of gravity in the object's frame; the first, -z, is that of an object set down."""
+
+LOOKS = 20
+"""How often a test looks whether the object has been dropped already."""
+
+
+@dataclass(frozen=True)
+class RigidObject:
+    """A free rigid body.
+
+    Attributes:
+        collision: OBJ with a group (`o`) for each convex part, metres, in the object's frame.
+        mass_kg: its mass.
+        centre_of_mass_m: (3,).
+        inertia_kg_m2: (3, 3) about the centre of mass, along the object's axes.
+    """
+
+    collision: Path
+    mass_kg: float
+    centre_of_mass_m: Array
+    inertia_kg_m2: Array
+
+
+class Physics:
+    """A physics server that tests grasps of one object. Use `physics` to get one."""
+
+    def __init__(
+        self, client: int, urdf: Path, body: RigidObject, settings: PhysicsSettings
+    ) -> None:
+        self._client = client
+        self._urdf = urdf
+        self._body = body
+        self._settings = settings
+        self._joints: list[int] = []
+        self.steps = 0
+        """Time steps made so far, for benchmarks."""
+
+    def hold(self, T_object_hand: Array, joint_angles_rad: Array) -> Held:
+        """Squeeze and hold the object, in the worst of the directions asked for.
+
+        Args:
+            T_object_hand: (4, 4) the hand in the object's frame.
+            joint_angles_rad: (8,) angles at which the fingers touch.
+        """
+        directions = DIRECTIONS if self._settings.shake else DIRECTIONS[:1]
+        worst: Held | None = None
+        for direction in directions:
+            held = self._hold_once(T_object_hand, joint_angles_rad, direction)
+            if worst is None or (held.dropped, held.moved_m) > (worst.dropped, worst.moved_m):
+                worst = held
+            if worst.dropped:
+                break
+        assert worst is not None
+        return worst
+
+    def _hold_once(self, T_object_hand: Array, angles: Array, direction: Array) -> Held:
+        settings, client = self._settings, self._client
+        hand, thing = self._load(T_object_hand, angles)
+        motors = Motors(angles, settings)
+        self._run(hand, motors, settings.squeeze_time_s)
+        before = self._pose(thing)
+        down = T_object_hand[:3, :3].T @ direction * settings.gravity_m_s2
+        pybullet.setGravity(*down, physicsClientId=client)
+        dropped = False
+        for _ in range(LOOKS):
+            self._run(hand, motors, settings.hold_time_s / LOOKS)
+            after = self._pose(thing)
+            moved, turned = _difference(before, after)
+            dropped = moved > settings.drop_distance_m or turned > settings.drop_rotation_rad
+            if dropped:
+                break
+        contacts = self._contacts(hand, thing, after)
+        states = pybullet.getJointStates(hand, self._joints, physicsClientId=client)
+        return Held(
+            dropped=dropped or not contacts,
+            moved_m=moved,
+            turned_rad=turned,
+            T_object_hand=inverse(after),
+            joint_angles_rad=np.array([state[0] for state in states]),
+            contacts=contacts,
+        )
+
+    def _load(self, T_object_hand: Array, angles: Array) -> tuple[int, int]:
+        """A new world with the hand at its origin and the object in it: their numbers."""
+        client, settings = self._client, self._settings
+        pybullet.resetSimulation(physicsClientId=client)
+        pybullet.setPhysicsEngineParameter(
+            fixedTimeStep=settings.timestep_s,
+            numSolverIterations=settings.solver_iterations,
+            deterministicOverlappingPairs=1,
+            physicsClientId=client,
+        )
+        hand = pybullet.loadURDF(
+            str(self._urdf),
+            useFixedBase=True,
+            flags=pybullet.URDF_USE_INERTIA_FROM_FILE | pybullet.URDF_USE_SELF_COLLISION,
+            physicsClientId=client,
+        )
+        self._number_joints(hand)
+        for joint, angle in zip(self._joints, angles, strict=True):
+            pybullet.resetJointState(hand, joint, angle, physicsClientId=client)
+        thing = self._load_object(inverse(T_object_hand))
+        for link in (-1, *self._joints):
+            pybullet.changeDynamics(
+                hand, link, lateralFriction=settings.friction, physicsClientId=client
+            )
+        return hand, thing
+
+    def _number_joints(self, hand: int) -> None:
+        """Find Bullet's number of each joint, which is also that of the link behind it."""
+        count, client = pybullet.getNumJoints(hand, physicsClientId=self._client), self._client
+        names = [pybullet.getJointInfo(hand, n, physicsClientId=client)[1] for n in range(count)]
+        self._joints = [names.index(name.encode()) for name in kinematics.JOINT_NAMES]
+
+    def _load_object(self, T_hand_object: Array) -> int:
+        body, client = self._body, self._client
+        moments, axes = np.linalg.eigh(body.inertia_kg_m2)
+        axes = axes * np.sign(np.linalg.det(axes))
+        T_object_inertial = np.eye(4)
+        T_object_inertial[:3, :3], T_object_inertial[:3, 3] = axes, body.centre_of_mass_m
+        shape = pybullet.createCollisionShape(
+            pybullet.GEOM_MESH, fileName=str(body.collision), physicsClientId=client
+        )
+        position, orientation = _position_orientation(T_object_inertial)
+        thing = pybullet.createMultiBody(
+            baseMass=body.mass_kg,
+            baseCollisionShapeIndex=shape,
+            baseInertialFramePosition=position,
+            baseInertialFrameOrientation=orientation,
+            physicsClientId=client,
+        )
+        pybullet.changeDynamics(
+            thing,
+            -1,
+            localInertiaDiagonal=moments.tolist(),
+            lateralFriction=1.0,  # Bullet multiplies the frictions of the two bodies
+            collisionMargin=0.0,
+            physicsClientId=client,
+        )
+        position, orientation = _position_orientation(T_hand_object @ T_object_inertial)
+        pybullet.resetBasePositionAndOrientation(
+            thing, position, orientation, physicsClientId=client
+        )
+        return thing
+
+    def _run(self, hand: int, motors: Motors, time_s: float) -> None:
+        """Let time pass while the motors close the fingers as far as their force allows."""
+        settings, client = self._settings, self._client
+        for _ in range(round(time_s / (settings.timestep_s * settings.control_steps))):
+            states = pybullet.getJointStates(hand, self._joints, physicsClientId=client)
+            speeds, torques = motors.drive(np.array([state[0] for state in states]))
+            pybullet.setJointMotorControlArray(
+                hand,
+                self._joints,
+                pybullet.VELOCITY_CONTROL,
+                targetVelocities=speeds.tolist(),
+                forces=torques.tolist(),
+                physicsClientId=client,
+            )
+            for _ in range(settings.control_steps):
+                pybullet.stepSimulation(physicsClientId=client)
+            self.steps += settings.control_steps
+
+    def _pose(self, thing: int) -> Array:
+        """(4, 4) the object's frame in the hand's; Bullet itself reports its inertial frame."""
+        client = self._client
+        position, orientation = pybullet.getBasePositionAndOrientation(
+            thing, physicsClientId=client
+        )
+        inertial = pybullet.getDynamicsInfo(thing, -1, physicsClientId=client)[3:5]
+        return _matrix(position, orientation) @ inverse(_matrix(*inertial))
+
+    def _contacts(self, hand: int, thing: int, T_hand_object: Array) -> list[Contact]:
+        T = inverse(T_hand_object)
+        found = pybullet.getContactPoints(thing, hand, physicsClientId=self._client)
+        return [
+            Contact(
+                link=0 if point[4] < 0 else self._joints.index(point[4]) + 1,
+                point_m=T[:3, :3] @ np.array(point[6]) + T[:3, 3],
+                normal=T[:3, :3] @ np.array(point[7]),
+                force_n=float(point[9]),
+            )
+            for point in found
+            if point[9] > 0.0
+        ]
+
+
+def read_body(collision: str | Path, properties: str | Path) -> RigidObject:
+    """The body of an object from its files; see `object_files`."""
+    numbers = read_properties(properties)
+    return RigidObject(
+        Path(collision),
+        float(numbers["mass_kg"]),
+        np.array(numbers["centre_of_mass_m"]),
+        np.array(numbers["inertia_kg_m2"]),
+    )
+
+
+@contextmanager
+def physics(urdf: str | Path, body: RigidObject, settings: PhysicsSettings) -> Iterator[Physics]:
+    """A physics server for one object, in this process and without a window."""
+    client = pybullet.connect(pybullet.DIRECT)
+    try:
+        yield Physics(client, Path(urdf), body, settings)
+    finally:
+        pybullet.disconnect(client)
+
+
+def _position_orientation(T: Array) -> tuple[list[float], list[float]]:
+    return T[:3, 3].tolist(), Rotation.from_matrix(T[:3, :3]).as_quat().tolist()
+
+
+def _matrix(position: Sequence[float], orientation: Sequence[float]) -> Array:
+    T = np.eye(4)
+    T[:3, :3] = Rotation.from_quat(orientation).as_matrix()
+    T[:3, 3] = position
+    return T
+
+
+def _difference(before: Array, after: Array) -> tuple[float, float]:
+    """Distance (m) between the origins of two poses and angle (rad) between their axes."""
+    turned = Rotation.from_matrix(before[:3, :3].T @ after[:3, :3]).magnitude()
+    return float(np.linalg.norm(after[:3, 3] - before[:3, 3])), float(turned)

@@ -1,0 +1,65 @@
+"""A copy of this checkout with other parameters, for the demo and the end-to-end tests.
+
+``python -m grasptypes.versions.checkout SOURCE TARGET --params CHANGES.yaml``
+"""
+
+from __future__ import annotations
+
+import argparse
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import yaml
+
+from grasptypes.errors import InputError
+from grasptypes.files import write_text
+from grasptypes.params import merge, read_yaml
+
+
+def copy_checkout(source: str | Path, target: str | Path, changes: str | Path) -> None:
+    """Copy the files git knows or would add, with ``params.yaml`` changed.
+
+    Results that lie in ``target`` from an earlier call stay, so that a second run is incremental.
+
+    Args:
+        source: root of a git checkout.
+        target: folder to write to.
+        changes: YAML file laid over ``params.yaml``, section by section.
+
+    Raises:
+        InputError: ``source`` is not a checkout or a YAML file cannot be read.
+    """
+    source, target = Path(source), Path(target)
+    listing = subprocess.run(
+        ["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"],
+        cwd=source,
+        capture_output=True,
+        check=False,
+    )
+    if listing.returncode != 0:
+        raise InputError(source, "", "not a git checkout")
+    params = merge(read_yaml(source / "params.yaml"), read_yaml(changes))
+    for name in filter(None, listing.stdout.decode().split("\0")):
+        if (source / name).is_file() and not name.startswith(("data/", "models/", "reports/")):
+            (target / name).parent.mkdir(parents=True, exist_ok=True)
+            shutil.copy2(source / name, target / name)
+    write_text(target / "params.yaml", yaml.safe_dump(params, sort_keys=False))
+
+
+def main() -> None:
+    """Command line; bad input ends with one line and exit status 1."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("source", type=Path)
+    parser.add_argument("target", type=Path)
+    parser.add_argument("--params", type=Path, required=True)
+    arguments = parser.parse_args()
+    try:
+        copy_checkout(arguments.source, arguments.target, arguments.params)
+    except InputError as error:
+        sys.exit(f"error: {error}")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,114 @@
+"""Content hashes that stand as rule parameters, so that staleness never depends on file times."""
+
+from __future__ import annotations
+
+import ast
+import functools
+import hashlib
+import json
+import os
+from pathlib import Path
+
+from grasptypes.files import write_text
+
+_SOURCE = Path(__file__).resolve().parents[2]
+_PACKAGE = Path(__file__).resolve().parents[1].name
+
+
+def code_hash(*scripts: str | Path) -> str:
+    """Hash of Python files and of every module of this package they import, directly or not.
+
+    The syntax trees are hashed without their docstrings: comments, docstrings and layout change
+    nothing; a changed statement anywhere below does.
+    """
+    todo = {Path(script).resolve() for script in scripts}
+    seen: set[Path] = set()
+    while todo:
+        path = todo.pop()
+        seen.add(path)
+        todo |= _local_imports(path) - seen
+    names = sorted((_name(path), path) for path in seen)
+    digest = hashlib.sha256()
+    for name, path in names:
+        digest.update(f"{name}\n{_tree(path)}\n".encode())
+    return digest.hexdigest()[:16]
+
+
+@functools.cache
+def _parse(path: Path) -> ast.Module:
+    return ast.parse(path.read_text(encoding="utf-8"))
+
+
+@functools.cache
+def _tree(path: Path) -> str:
+    tree = ast.parse(path.read_text(encoding="utf-8"))
+    for node in ast.walk(tree):
+        body = getattr(node, "body", None)
+        if isinstance(body, list) and body and _is_docstring(body[0]):
+            body[0].value.value = ""
+    return ast.dump(tree)
+
+
+def _is_docstring(node: ast.AST) -> bool:
+    return (
+        isinstance(node, ast.Expr)
+        and isinstance(node.value, ast.Constant)
+        and isinstance(node.value.value, str)
+    )
+
+
+def _name(path: Path) -> str:
+    """A name for the file that is the same in every checkout."""
+    return str(path.relative_to(_SOURCE)) if path.is_relative_to(_SOURCE) else path.name
+
+
+def _module_file(module: str) -> Path | None:
+    path = _SOURCE.joinpath(*module.split("."))
+    for candidate in (path.with_suffix(".py"), path / "__init__.py"):
+        if candidate.is_file():
+            return candidate
+    return None
+
+
+@functools.cache
+def _local_imports(path: Path) -> set[Path]:
+    """Files of this package that ``path`` imports; the package uses absolute imports only."""
+    modules: set[str] = set()
+    for node in ast.walk(_parse(path)):
+        if isinstance(node, ast.Import):
+            modules |= {alias.name for alias in node.names}
+        elif isinstance(node, ast.ImportFrom) and node.module:
+            modules |= {node.module} | {f"{node.module}.{alias.name}" for alias in node.names}
+    local = {module for module in modules if module.split(".")[0] == _PACKAGE}
+    return {file for module in local if (file := _module_file(module)) is not None}
+
+
+class FileHash:
+    """SHA-256 of files, remembered by inode, size and times so that unchanged ones are not reread.
+
+    Args:
+        memory: a JSON file that keeps the hashes between calls; safe to delete.
+    """
+
+    def __init__(self, memory: str | Path) -> None:
+        self.memory = Path(memory)
+        try:
+            self.known: dict[str, list] = json.loads(self.memory.read_text())
+        except (OSError, ValueError):
+            self.known = {}
+
+    def __call__(self, path: str | Path) -> str:
+        """The first 16 hex digits of the file's SHA-256, or ``"missing"``."""
+        try:
+            status = os.stat(path)
+        except FileNotFoundError:
+            return "missing"
+        stamp = [status.st_ino, status.st_size, status.st_mtime_ns, status.st_ctime_ns]
+        known = self.known.get(str(path))
+        if known is not None and known[0] == stamp:
+            return str(known[1])
+        with open(path, "rb") as file:
+            digest = hashlib.file_digest(file, "sha256").hexdigest()[:16]
+        self.known[str(path)] = [stamp, digest]
+        write_text(self.memory, json.dumps(self.known))
+        return digest

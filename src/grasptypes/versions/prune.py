@@ -1,0 +1,95 @@
+"""Remove what is left of objects and tasks that are no longer in the parameters.
+
+Snakemake never deletes what it no longer makes, and DVC keeps the folders it versions: without
+this, a removed object's files would travel with the data for ever.
+
+``python -m grasptypes.versions.prune`` does it for the ``params.yaml`` of the current folder.
+"""
+
+from __future__ import annotations
+
+import base64
+import logging
+from collections.abc import Collection
+from pathlib import Path
+
+from grasptypes.params import read_yaml
+
+OBJECT_FOLDERS = (
+    "data/objects",
+    "data/contact_maps",
+    "data/grasps",
+    "data/attempts",
+    "data/renders",
+    "data/features",
+    "data/screenshots",
+)
+TASK_FOLDERS = ("data/contact_maps", "data/grasps", "data/attempts")
+PICTURE_FOLDERS = ("reports/figures/contact_maps", "reports/figures/grasps")
+RECORDS = ".snakemake/metadata"
+
+logger = logging.getLogger(__name__)
+
+
+def prune(root: str | Path, objects: Collection[str], tasks: Collection[str]) -> list[Path]:
+    """Delete the files, and Snakemake's records, of objects and tasks that are not named.
+
+    Returns:
+        the deleted files, relative to ``root``, sorted.
+    """
+    root = Path(root)
+    gone = [path for path in _files(root) if not _is_kept(path, objects, tasks)]
+    for path in gone:
+        (root / path).unlink()
+        _remove_empty_folders((root / path).parent, root)
+    left = {str(path) for path in gone}
+    for record in sorted((root / RECORDS).rglob("*")):
+        if record.is_file() and _recorded_path(record.relative_to(root / RECORDS)) in left:
+            record.unlink()
+            _remove_empty_folders(record.parent, root / RECORDS)
+    return gone
+
+
+def _files(root: Path) -> list[Path]:
+    """Every file that belongs to one object, relative to ``root``."""
+    folders = (root / folder for folder in (*OBJECT_FOLDERS, *PICTURE_FOLDERS))
+    files = (path for folder in folders for path in folder.rglob("*") if path.is_file())
+    return sorted(path.relative_to(root) for path in files)
+
+
+def _is_kept(path: Path, objects: Collection[str], tasks: Collection[str]) -> bool:
+    folder = next(
+        folder for folder in (*OBJECT_FOLDERS, *PICTURE_FOLDERS) if path.is_relative_to(folder)
+    )
+    first, *rest = path.relative_to(folder).parts
+    name = first.split(".")[0]
+    if folder in PICTURE_FOLDERS:
+        return name in {f"{object_}_{task}" for object_ in objects for task in tasks}
+    if folder in TASK_FOLDERS and rest:
+        return name in objects and rest[0].split(".")[0] in tasks
+    return name in objects
+
+
+def _recorded_path(record: Path) -> str:
+    """The output a record of Snakemake's is about: its name is the path in URL-safe base64."""
+    encoded = "".join(part.removeprefix("@") for part in record.parts)
+    return base64.urlsafe_b64decode(encoded).decode()
+
+
+def _remove_empty_folders(folder: Path, root: Path) -> None:
+    while folder != root and not any(folder.iterdir()):
+        folder.rmdir()
+        folder = folder.parent
+
+
+def main() -> None:
+    """Prune the current folder and say what went."""
+    logging.basicConfig(level=logging.INFO, format="%(message)s")
+    params = read_yaml("params.yaml")
+    objects = [*params["objects"]["names"], *params["objects"]["own"]]
+    for path in prune(".", objects, list(params["tasks"])):
+        logger.info("removed %s, which is no longer in params.yaml", path)
+
+
+if __name__ == "__main__":
+    main()

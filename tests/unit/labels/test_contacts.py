@@ -1,0 +1,116 @@
+"""Contacts of hands with bodies whose distance is known in closed form."""
+
+import numpy as np
+import pytest
+import trimesh
+
+from grasptypes.hand import kinematics
+from grasptypes.labels.contacts import (
+    DISTAL_LINKS,
+    FINGER_LINKS,
+    PALM,
+    ContactSettings,
+    MeshDistance,
+    closing_directions,
+    find_contacts,
+)
+from grasptypes.objects.distance_grid import DistanceGrid
+
+UPRIGHT = np.eye(3)
+SETTINGS = ContactSettings(0.006, 0.002, 0.025, 3.0)
+
+
+class Ball:
+    """Signed distance to a sphere about a point of the object frame."""
+
+    def __init__(self, centre, radius):
+        self.centre, self.radius = np.asarray(centre), radius
+
+    def distance_and_gradient(self, points):
+        offset = np.asarray(points) - self.centre
+        length = np.linalg.norm(offset, axis=-1)
+        return length - self.radius, offset / length[..., None]
+
+
+def pose(shift=(0.0, 0.0, 0.0), turn=UPRIGHT):
+    T = np.eye(4)
+    T[:3, :3], T[:3, 3] = turn, shift
+    return T
+
+
+def closed(spread=0.0, fingers=60.0):
+    return kinematics.couple(np.radians([[spread, fingers, fingers, fingers]]))
+
+
+def test_palm_gap_is_the_distance_to_the_palm_plate():
+    contacts = find_contacts(Ball([0, 0, 0.06], 0.04), pose()[None], closed(), SETTINGS)
+    assert contacts.gap_m[0, PALM] == pytest.approx(0.02, abs=5e-4)
+    np.testing.assert_allclose(contacts.normal[0, PALM], [0, 0, -1], atol=0.05)
+
+
+def test_contacts_do_not_depend_on_where_the_object_frame_is():
+    turn = np.array([[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])
+    shift = np.array([0.3, -0.2, 0.1])
+    centre = np.array([0.01, 0.0, 0.07])
+    here = find_contacts(Ball(centre, 0.05), pose()[None], closed(20), SETTINGS)
+    there = find_contacts(
+        Ball(turn @ centre + shift, 0.05), pose(shift, turn)[None], closed(20), SETTINGS
+    )
+    for first, second in zip(here, there, strict=True):
+        np.testing.assert_allclose(first, second, atol=1e-12)
+
+
+def test_a_ball_is_pushed_from_both_sides_along_y_at_spread_zero():
+    contacts = find_contacts(Ball([0, 0, 0.09], 0.05), pose()[None], closed(), SETTINGS)
+    first, _, third = contacts.push[0, list(DISTAL_LINKS), 1]
+    assert first < -0.5
+    assert third > 0.5
+
+
+def test_weight_falls_from_one_at_touch_to_zero_at_the_reach():
+    contacts = find_contacts(Ball([0, 0, 0.09], 0.02), pose()[None], closed(0, 30), SETTINGS)
+    expected = np.clip(1 - contacts.gap_m / SETTINGS.reach_m, 0, 1)
+    np.testing.assert_allclose(contacts.weight, expected)
+    assert contacts.weight.min() == 0.0
+    deep = find_contacts(Ball([0, 0, 0.0], 0.05), pose()[None], closed(0, 30), SETTINGS)
+    assert deep.weight[0, PALM] == 1.0
+
+
+def test_closing_directions_are_the_motion_of_closing_fingers():
+    angles, step = np.radians([[30.0, 50.0, 60.0, 70.0]]), 1e-6
+    before, after = (kinematics.couple(angles + [[0, s, s, s]]) for s in (0.0, step))
+    # A point of the proximal link, where the fingertip's own turn plays no part.
+    link = kinematics.LINK_NAMES.index("proximal_2")
+    T = kinematics.link_poses(before)
+    position = T[:, :, :3, 3] + 0.05 * T[:, :, :3, 0]
+    moved = kinematics.link_poses(after)[:, link, :3, :] @ [0.05, 0, 0, 1.0]
+    motion = (moved - position[:, link])[0]
+    direction = closing_directions(T, position)[0, link]
+    np.testing.assert_allclose(direction, motion / np.linalg.norm(motion), atol=1e-5)
+
+
+def test_palm_and_knuckles_do_not_close():
+    T = kinematics.link_poses(closed())
+    directions = closing_directions(T, T[:, :, :3, 3] + 0.01)
+    others = [link for link in range(9) if link not in FINGER_LINKS]
+    assert not directions[:, others].any()
+
+
+def test_mesh_and_grid_tell_the_same_contacts():
+    box = trimesh.creation.box([0.05, 0.06, 0.12])
+    box.apply_translation([0, 0, 0.075])
+    vertices, faces = np.array(box.vertices), np.array(box.faces, dtype=np.int64)
+    fields = MeshDistance(vertices, faces), DistanceGrid.from_mesh(vertices, faces, 0.003, 0.03)
+    exact, sampled = (find_contacts(f, pose()[None], closed(), SETTINGS) for f in fields)
+    np.testing.assert_allclose(exact.gap_m[0, [PALM]], sampled.gap_m[0, [PALM]], atol=1e-3)
+    near = exact.weight > 0.2
+    assert near.sum() >= 3
+    assert (np.sum(exact.push * sampled.push, axis=2)[near] > 0.95).all()
+
+
+def test_mesh_distance_is_negative_inside_and_points_outwards():
+    box = trimesh.creation.box([0.1, 0.1, 0.1])
+    field = MeshDistance(np.array(box.vertices), np.array(box.faces, dtype=np.int64))
+    distance, direction = field.distance_and_gradient([[0, 0, 0.04], [0, 0, 0.05], [0, 0, 0.07]])
+    np.testing.assert_allclose(distance, [-0.01, 0.0, 0.02], atol=1e-9)
+    np.testing.assert_allclose(direction, [[0, 0, 1]] * 3, atol=1e-9)

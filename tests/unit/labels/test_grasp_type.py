@@ -1,0 +1,147 @@
+"""Every branch of the tree and both sides of every threshold."""
+
+import numpy as np
+import pytest
+
+from grasptypes.hand import kinematics
+from grasptypes.labels.contacts import DISTAL_LINKS, Contacts
+from grasptypes.labels.grasp_type import (
+    GRASP_TYPES,
+    Measures,
+    Thresholds,
+    classify,
+    enclosed_diameters,
+    explain,
+    fingertip_span,
+    measure,
+    sideways_share,
+)
+
+THRESHOLDS = Thresholds(0.020, 0.050, 0.05, 0.080)
+# A wide medium wrap: every other type is one change away.
+WRAP = {
+    "palm_gap_m": 0.0,
+    "enclosed_diameter_m": 0.070,
+    "sideways_share": 0.0,
+    "span_m": 0.060,
+}
+
+
+def label(**changes):
+    values = {**WRAP, **changes}
+    return explain(Measures(*(np.array([values[name]]) for name in Measures._fields)), THRESHOLDS)[
+        0
+    ]
+
+
+@pytest.mark.parametrize(
+    ("changes", "expected"),
+    [
+        ({"span_m": 0.0801}, "Large Wrap"),
+        ({"span_m": 0.080}, "Medium Wrap"),
+        ({"enclosed_diameter_m": 0.050}, "Small Wrap"),
+        ({"enclosed_diameter_m": 0.0501}, "Medium Wrap"),
+        ({"sideways_share": 0.0501}, "Power Sphere"),
+        ({"sideways_share": 0.05}, "Medium Wrap"),
+        ({"palm_gap_m": 0.020}, "Medium Wrap"),
+        ({"palm_gap_m": 0.0201}, "Precision"),
+        ({"palm_gap_m": 0.0201, "sideways_share": 0.05}, "Precision"),
+        ({"palm_gap_m": 0.0201, "sideways_share": 0.0501}, "Precision Sphere"),
+        ({"enclosed_diameter_m": 0.04, "sideways_share": 0.5}, "Small Wrap"),
+        ({"sideways_share": 0.5, "span_m": 0.2}, "Power Sphere"),
+        ({"palm_gap_m": 0.1, "enclosed_diameter_m": 0.01}, "Precision"),
+        ({"palm_gap_m": -0.004}, "Medium Wrap"),
+    ],
+)
+def test_branch(changes, expected):
+    assert label(**changes).grasp_type == expected
+
+
+def test_classify_agrees_with_explain():
+    draw = np.random.default_rng(0)
+    measures = Measures(*(draw.uniform(0, 2, 300) * limit for limit in THRESHOLDS))
+    names = [GRASP_TYPES[index] for index in classify(measures, THRESHOLDS)]
+    assert names == [one.grasp_type for one in explain(measures, THRESHOLDS)]
+    assert set(names) == set(GRASP_TYPES[:-1])
+
+
+def test_explanation_names_the_decisions_taken_and_no_others():
+    sphere = label(sideways_share=0.06)
+    assert sphere.branch == (
+        "power: palm gap 0.0 mm <= 20.0 mm, enclosed diameter 70.0 mm > 50.0 mm, "
+        "sideways share 0.060 > 0.050"
+    )
+    assert label(palm_gap_m=0.03).branch.startswith("precision: palm gap 30.0 mm > 20.0 mm")
+    assert "span" not in label(palm_gap_m=0.03).branch
+
+
+def test_margin_is_the_nearest_threshold_that_mattered():
+    assert label(span_m=0.072).margin == pytest.approx(0.1)
+    # The span is no branch of a sphere.
+    assert label(sideways_share=0.06, span_m=0.08).margin == pytest.approx(0.2)
+
+
+@pytest.mark.parametrize(
+    ("changes", "fingers"),
+    [({}, 2), ({"sideways_share": 0.2}, 3), ({"palm_gap_m": 0.1}, 2)],
+)
+def test_virtual_fingers(changes, fingers):
+    assert label(**changes).virtual_fingers == fingers
+
+
+def contacts(push=(0.0, -1.0, 0.0), weight=1.0):
+    shape = (1, len(kinematics.LINK_NAMES))
+    pushes = np.broadcast_to(np.array(push, dtype=float), (*shape, 3)).copy()
+    weights = np.full(shape, weight)
+    return Contacts(np.zeros(shape), np.zeros((*shape, 3)), -pushes, pushes, weights)
+
+
+def test_sideways_share_is_the_mean_square_along_x():
+    assert sideways_share(contacts())[0] == 0.0
+    assert sideways_share(contacts([1.0, 0.0, 0.0]))[0] == pytest.approx(1.0)
+    assert sideways_share(contacts([0.6, 0.8, 0.0]))[0] == pytest.approx(0.36)
+
+
+def test_sideways_share_without_contact_is_zero():
+    assert sideways_share(contacts([1.0, 0.0, 0.0], weight=0.0))[0] == 0.0
+
+
+def test_the_palm_does_not_count_as_a_finger():
+    palm_only = contacts([1.0, 0.0, 0.0])
+    palm_only.weight[:, 1:] = 0.0
+    assert sideways_share(palm_only)[0] == 0.0
+
+
+def test_span_goes_from_finger_3_to_the_further_opposing_one():
+    some = contacts()
+    some.position_m[0, list(DISTAL_LINKS)] = [[0, 0.03, 0], [0, 0.05, 0], [0, -0.02, 0]]
+    assert fingertip_span(some)[0] == pytest.approx(0.07)
+
+
+def test_enclosed_circle_touches_palm_and_both_links():
+    angles = np.radians([[0, 0, 70, 70, 70, 25, 25, 25]])
+    diameter = enclosed_diameters(angles)[0, 0]
+    radius = diameter / 2 + 0.010
+    base, tip = np.radians(70 + 5), np.radians(25 + 40)
+    # In the finger's plane: the palm along -x from the base, the links as they turn from +x.
+    joint = 0.070 * np.array([np.cos(base), np.sin(base)])
+    end = joint + 0.055 * np.array([np.cos(base + tip), np.sin(base + tip)])
+    centre = np.array([-radius * np.tan(base / 2), radius])
+    for start, stop in (((0, 0), joint), (joint, end)):
+        along = np.subtract(stop, start) / np.linalg.norm(np.subtract(stop, start))
+        offset = centre - start
+        away = abs(along[0] * offset[1] - along[1] * offset[0])
+        assert away == pytest.approx(radius, abs=1e-9)
+
+
+def test_enclosed_diameter_falls_as_the_hand_closes():
+    dofs = np.radians([[0, angle, angle, angle] for angle in range(0, 141, 10)])
+    diameters = enclosed_diameters(kinematics.couple(dofs))[:, 0]
+    assert (np.diff(diameters) < 0).all()
+    assert diameters[-1] >= 0
+
+
+def test_measure_takes_the_median_finger():
+    angles = kinematics.couple(np.radians([[0, 20, 90, 140]]))
+    expected = enclosed_diameters(angles)[0, 1]
+    assert measure(contacts(), angles).enclosed_diameter_m[0] == pytest.approx(expected)

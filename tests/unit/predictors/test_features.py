@@ -1,0 +1,79 @@
+"""Encodings of the task and features of pictures."""
+
+import io
+
+import numpy as np
+import pytest
+from PIL import Image
+
+from grasptypes.errors import InputError
+from grasptypes.files import write_bytes, zip_bytes
+from grasptypes.predictors.backbone import KINDS, untrained_backbone
+from grasptypes.predictors.features import encodings, extract, read_pictures, shift_colours
+
+TASKS = {"use": {"colour_shift": 10}, "handoff": {"colour_shift": -10}, "show": {"colour_shift": 5}}
+
+
+def png(picture):
+    buffer = io.BytesIO()
+    Image.fromarray(picture).save(buffer, "PNG")
+    return buffer.getvalue()
+
+
+@pytest.fixture
+def pictures():
+    return np.random.default_rng(0).integers(0, 256, (3, 40, 40, 3), dtype=np.uint8)
+
+
+def test_there_is_an_encoding_for_every_task_and_one_without():
+    assert encodings(TASKS) == {"none": 0, "use": 10, "handoff": -10, "show": 5}
+
+
+def test_the_shift_is_clipped():
+    shifted = shift_colours(np.array([0, 9, 100, 250], dtype=np.uint8), 10)
+    np.testing.assert_array_equal(shifted, [10, 19, 110, 255])
+    shifted = shift_colours(np.array([0, 9, 100, 250], dtype=np.uint8), -10)
+    np.testing.assert_array_equal(shifted, [0, 0, 90, 240])
+    assert shifted.dtype == np.uint8
+
+
+def test_pictures_survive_the_archive(pictures, tmp_path):
+    members = {f"{k:03d}.png": png(p) for k, p in enumerate(pictures)}
+    write_bytes(tmp_path / "mug.zip", zip_bytes(dict(reversed(members.items()))))
+    np.testing.assert_array_equal(read_pictures(tmp_path / "mug.zip"), pictures)
+
+
+@pytest.mark.parametrize(
+    ("content", "message"),
+    [
+        (b"no archive", "ZIP"),
+        (zip_bytes({"000.png": b"no picture"}), r"000\.png"),
+        (zip_bytes({"000.png": png(np.zeros((99, 99, 3), np.uint8))[:60]}), r"000\.png"),
+        (zip_bytes({}), "no pictures"),
+    ],
+)
+def test_damaged_archives_are_refused(tmp_path, content, message):
+    write_bytes(tmp_path / "mug.zip", content)
+    with pytest.raises(InputError, match=message):
+        read_pictures(tmp_path / "mug.zip")
+
+
+def test_features_of_each_encoding(pictures):
+    backbone = untrained_backbone("mobilenet_v2", 64)
+    shifts = encodings(TASKS)
+    features = extract(backbone, pictures, shifts, "fp32", 2)
+    assert {name: f.shape for name, f in features.items()} == dict.fromkeys(
+        shifts, (3, KINDS["mobilenet_v2"].features)
+    )
+    shifted = extract(backbone, shift_colours(pictures, 5), {"none": 0}, "fp32", 3)
+    np.testing.assert_allclose(features["show"], shifted["none"], atol=1e-5)
+    again = extract(backbone, pictures, shifts, "fp32", 2)
+    np.testing.assert_array_equal(features["use"], again["use"])
+
+
+def test_half_precision_is_close(pictures):
+    backbone = untrained_backbone("mobilenet_v2", 64)
+    full = extract(backbone, pictures, {"none": 0}, "fp32", 3)["none"]
+    half = extract(backbone, pictures, {"none": 0}, "bf16", 3)["none"]
+    assert half.dtype == np.float32
+    assert np.abs(half - full).max() < 0.05 * np.abs(full).max()

@@ -1,0 +1,185 @@
+"""From a trained predictor on disk to an answer, by library and by command line."""
+
+import json
+
+import numpy as np
+import pytest
+import torch
+import trimesh
+import yaml
+from learning import random_weights
+from PIL import Image
+from test_environment import ROOT
+
+from grasptypes.__main__ import main
+from grasptypes.errors import InputError
+from grasptypes.labels.samples import TYPES
+from grasptypes.predictors.backbone import KINDS
+from grasptypes.predictors.metrics import softmax
+from grasptypes.predictors.prediction import predictor_paths
+from grasptypes.predictors.prediction_pictures import montage
+from grasptypes.predictors.predictor import Architecture, Heads
+from grasptypes.predictors.predictor_files import Card, load_predictor, write_predictor
+from grasptypes.predictors.weights import WEIGHTS_VARIABLE, weights_file
+from grasptypes.versions.checkout import read_yaml
+
+SHIFTS = {"use": 10, "handoff": -10, "wash": 20}
+PICTURE = np.random.default_rng(1).integers(0, 256, (64, 64, 3), dtype=np.uint8)
+
+
+@pytest.fixture(scope="module")
+def checkout(tmp_path_factory):
+    """A folder with parameters and two models of random weights, for three tasks."""
+    root = tmp_path_factory.mktemp("checkout")
+    weights = random_weights(root / "random.pth")
+    for model, tasks in (("task_vector", 3), ("no_task", 0)):
+        sizes = Architecture(KINDS["mobilenet_v2"].features, tasks, (8, 8, 8), 6)
+        card = Card(
+            model, "simulated", TYPES, tuple(SHIFTS), SHIFTS, sizes,
+            weights.backbone, weights.name, 32, "none",
+        )  # fmt: skip
+        folder = root / "models/simulated" / model
+        files = folder / "predictor.safetensors", folder / "predictor.json"
+        heads = Heads(sizes, [("a",)])
+        with torch.no_grad():
+            heads.weights[-1] *= 30  # answers that differ
+        write_predictor(heads, None, card, *files)
+    params = read_yaml(ROOT / "params.yaml")
+    params["renders"]["size_px"] = 96
+    params["predict"]["views"] = 3
+    (root / "params.yaml").write_text(yaml.safe_dump(params))
+    schema = root / "workflow/schemas/params.schema.yaml"
+    schema.parent.mkdir(parents=True)
+    schema.write_bytes((ROOT / "workflow/schemas/params.schema.yaml").read_bytes())
+    return root
+
+
+@pytest.fixture
+def predict(checkout, monkeypatch, capsys, tmp_path):
+    """The command in that folder: what it prints on both channels, and its exit status."""
+    monkeypatch.setenv(WEIGHTS_VARIABLE, str(checkout / "random.pth"))
+    monkeypatch.chdir(tmp_path)
+    Image.fromarray(PICTURE).save(tmp_path / "photo.png")
+
+    def run(*arguments):
+        status = 0
+        try:
+            main(["predict", "--folder", str(checkout), *map(str, arguments)])
+        except SystemExit as end:
+            status = 1 if isinstance(end.code, str) else end.code
+            if isinstance(end.code, str):
+                return "", end.code, status
+        shown = capsys.readouterr()
+        return shown.out, shown.err, status
+
+    return run
+
+
+def test_the_command_says_what_the_predictor_says(predict, checkout):
+    out, _, status = predict("--image", "photo.png", "--task", "wash", "--json")
+    said = json.loads(out)
+    assert status == 0
+    assert (said["model"], said["task"]) == ("task_vector", "wash")
+    folder = checkout / "models/simulated/task_vector"
+    weights = weights_file("mobilenet_v2", "test", checkout / "random.pth")
+    predictor = load_predictor(folder / "predictor.safetensors", folder / "predictor.json", weights)
+    logits = predictor.logits(PICTURE[None], "wash")[0]
+    (answer,) = said["answers"]
+    np.testing.assert_allclose(list(answer["probability"].values()), softmax(logits), atol=1e-6)
+    assert answer["chosen"] == [t for t, yes in zip(TYPES, logits > 0, strict=True) if yes]
+    other = json.loads(predict("--image", "photo.png", "--task", "use", "--json")[0])
+    assert other["answers"] != said["answers"]
+
+
+def test_a_folder_has_a_row_a_picture_and_a_drawing(predict, tmp_path):
+    folder = tmp_path / "photos"
+    folder.mkdir()
+    for name in ("b.png", "a.jpg"):
+        Image.fromarray(PICTURE).save(folder / name)
+    drawing = tmp_path / "drawn.png"
+    out, _, _ = predict("--image", folder, "--model", "a", "--picture", drawing)
+    rows = out.splitlines()
+    assert "no_task" in rows[0]
+    assert "whatever the task" in rows[0]
+    assert [row.split()[0] for row in rows[-2:]] == ["a.jpg", "b.png"]
+    with Image.open(drawing) as picture:
+        assert picture.width > 800
+
+
+def test_a_mesh_is_seen_from_several_sides(predict, tmp_path):
+    trimesh.creation.box((0.06, 0.08, 0.2)).export(tmp_path / "box.stl")
+    out, _, _ = predict("--object", "box.stl", "--task", "use", "--json")
+    (answer,) = json.loads(out)["answers"]
+    assert answer["name"] == "box.stl, mean of 3 views"
+    assert sum(answer["probability"].values()) == pytest.approx(1, abs=1e-5)
+    assert predict("--object", "box.stl", "--task", "use", "--json")[0] == out
+    assert "unit: cm or mm" in predict("--object", _huge(tmp_path), "--task", "use")[1]
+
+
+def _huge(folder):
+    trimesh.creation.box((6, 8, 20)).export(folder / "huge.stl")
+    return "huge.stl"
+
+
+@pytest.mark.parametrize(
+    ("arguments", "expected", "status"),
+    [
+        (("--image", "gone.png", "--task", "use"), "error: gone.png: no such file or folder", 1),
+        (
+            ("--image", "photo.png", "--task", "fly"),
+            "error: --task: fly: unknown; allowed: ",
+            1,
+        ),
+        (("--image", "photo.png"), "error: --task: is needed; allowed: use, handoff, wash", 1),
+        (("--image", "photo.png", "--task", "use", "--model", "e"), "--model: e: unknown", 1),
+        (("--image", "photo.png", "--task", "use", "--model", "d"), "is not trained yet; run:", 1),
+        (("--image", "photo.png", "--task", "use", "--picture", "o.jpg"), "must end in .png", 1),
+        (("--image", ".", "--task", "use", "--picture", "."), "must end in .png", 1),
+        (("--object", "photo.png", "--task", "use"), "not a mesh format", 1),
+        (("--task", "use"), "one of the arguments --image --object is required", 2),
+        (("--image", "photo.png", "--colour"), "unrecognized arguments: --colour", 2),
+    ],
+)
+def test_bad_input_is_one_line_and_writes_nothing(predict, tmp_path, arguments, expected, status):
+    before = sorted(tmp_path.iterdir())
+    out, err, code = predict(*arguments)
+    assert out == ""
+    assert expected in err
+    assert err.strip().count("\n") == 0
+    assert code == status
+    assert sorted(tmp_path.iterdir()) == before
+
+
+def test_one_bad_picture_of_a_folder_stops_everything(predict, tmp_path):
+    (tmp_path / "zero.png").touch()
+    out, err, status = predict("--image", tmp_path, "--model", "a", "--picture", "drawn.png")
+    assert (out, status) == ("", 1)
+    assert "zero.png: not a picture" in err
+    assert not (tmp_path / "drawn.png").exists()
+
+
+def test_other_weights_are_refused(predict, checkout, monkeypatch, tmp_path):
+    state = torch.load(checkout / "random.pth")
+    state["classifier.1.bias"] += 1
+    torch.save(state, tmp_path / "other.pth")
+    monkeypatch.setenv(WEIGHTS_VARIABLE, str(tmp_path / "other.pth"))
+    _, err, status = predict("--image", "photo.png", "--task", "use")
+    assert status == 1
+    assert "trained on mobilenet_v2, random.pth" in err
+
+
+def test_a_folder_without_parameters_is_named(capsys, tmp_path):
+    with pytest.raises(SystemExit, match=r"params\.yaml: no such file; name a checkout"):
+        main(["predict", "--folder", str(tmp_path), "--image", "x.png"])
+
+
+def test_models_are_found_by_row_or_name(checkout):
+    assert predictor_paths(checkout, "simulated", "b") == predictor_paths(
+        checkout, "simulated", "task_vector"
+    )
+    with pytest.raises(InputError, match="is not trained yet"):
+        predictor_paths(checkout, "published", "b")
+
+
+def test_montage_fills_its_last_row():
+    assert montage(np.zeros((5, 4, 4, 3), np.uint8)).shape == (8, 12, 3)

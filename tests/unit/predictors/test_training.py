@@ -1,0 +1,57 @@
+"""Training: it learns what can be learnt, and the same from the same seed."""
+
+from dataclasses import replace
+
+import learning
+import numpy as np
+import pytest
+
+from grasptypes.predictors.training import Member, fit, members_by_group, predict
+from grasptypes.reports.results import score
+
+KEY = ("predictor", "test")
+
+
+def trained(model, schedule=learning.SCHEDULE, seeds=1):
+    examples = learning.examples(model)
+    members = members_by_group(examples.index["fold"], seeds)
+    heads, curves = fit(examples, members, schedule, KEY)
+    logits = [predict(heads, k, examples, member.test) for k, member in enumerate(members)]
+    return score(examples, members, logits)[0], curves, logits
+
+
+def test_members_are_every_group_and_seed():
+    members = members_by_group([0, 0, 1, 2], 2)
+    assert [(m.group, m.seed) for m in members] == [(g, s) for s in (0, 1) for g in ("0", "1", "2")]
+    np.testing.assert_array_equal(members[0].train, [2, 3])
+    np.testing.assert_array_equal(members[0].test, [0, 1])
+
+
+@pytest.mark.parametrize("model", ["task_vector", "task_in_image", "ignores_task"])
+def test_what_the_inputs_tell_is_learnt(model):
+    metrics, curves, _ = trained(model)
+    assert metrics["angular_similarity"].min() > 0.9
+    assert metrics["multilabel_accuracy"].min() > 0.97
+    assert curves[-1, :, 0].mean() < 0.7 * curves[0, :, 0].mean()
+    assert np.isfinite(curves).all()
+
+
+def test_without_the_task_it_cannot_be_known():
+    assert trained("no_task")[0]["multilabel_accuracy"].max() < 0.9
+
+
+def test_the_same_again_and_another_seed_differs():
+    quick = replace(learning.SCHEDULE, epochs=2, dropout=0.2)
+    first, again = trained("task_vector", quick, seeds=2), trained("task_vector", quick, seeds=2)
+    np.testing.assert_array_equal(first[2], again[2])
+    np.testing.assert_array_equal(first[1], again[1])
+    assert not np.allclose(first[2][0], first[2][4])  # fold 0 of the two seeds
+
+
+def test_more_components_than_features_and_fewer_examples_than_a_batch():
+    examples = learning.examples("ignores_task")
+    member = Member("all", 0, np.arange(0, 80, 8), np.arange(0))
+    large = replace(learning.SCHEDULE, components=500, batch=64, epochs=2)
+    heads, curves = fit(examples, [member], large, KEY)
+    assert heads.architecture.inputs == 24
+    assert np.isnan(curves[..., 1]).all()  # nothing to test on

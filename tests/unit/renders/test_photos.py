@@ -1,0 +1,111 @@
+"""What users hand in: good pictures whatever their format, and one clear line for the others."""
+
+import numpy as np
+import pytest
+from PIL import Image
+
+from grasptypes.errors import InputError
+from grasptypes.renders.photos import PhotoLimits, padded, photo_files, read_photo
+
+LIMITS = PhotoLimits(min_px=32, max_pixels=1_000_000, reduce_px=128)
+NOISE = np.random.default_rng(0).integers(0, 256, (64, 64, 3), dtype=np.uint8)
+
+
+@pytest.mark.parametrize("mode", ["RGB", "L", "P", "1", "CMYK"])
+def test_opaque_modes_are_read(tmp_path, mode):
+    suffix = "tiff" if mode == "CMYK" else "png"
+    Image.fromarray(NOISE).convert(mode).save(tmp_path / f"a.{suffix}")
+    photo = read_photo(tmp_path / f"a.{suffix}", LIMITS)
+    assert photo.shape == (64, 64, 3)
+    assert photo.dtype == np.uint8
+    if mode == "RGB":
+        assert (photo == NOISE).all()
+
+
+def test_a_large_picture_is_reduced_and_keeps_its_proportions(tmp_path):
+    wide = np.zeros((200, 400, 3), np.uint8)
+    wide[:, :200] = 255
+    Image.fromarray(wide).save(tmp_path / "a.png")
+    photo = read_photo(tmp_path / "a.png", LIMITS)
+    assert photo.shape == (128, 128, 3)
+    assert photo[64, 10].tolist() == [255, 255, 255]
+    assert photo[64, 120].tolist() == [0, 0, 0]
+
+
+def test_a_camera_s_turn_is_undone(tmp_path):
+    picture = Image.fromarray(NOISE)
+    exif = picture.getexif()
+    exif[0x0112] = 3  # upside down
+    picture.save(tmp_path / "a.png", exif=exif)
+    assert (read_photo(tmp_path / "a.png", LIMITS) == NOISE[::-1, ::-1]).all()
+
+
+def test_padding_has_the_colour_of_the_border():
+    picture = np.full((40, 80, 3), 7, np.uint8)
+    picture[10:30, 20:60] = 200
+    square = padded(picture)
+    assert square.shape == (80, 80, 3)
+    assert (square[:20] == 7).all()
+    assert (square[20:60] == picture).all()
+
+
+def _bad(folder):
+    """Name to content of files that are no usable picture."""
+    Image.fromarray(NOISE).save(folder / "whole.png")
+    whole = (folder / "whole.png").read_bytes()
+    (folder / "text.png").write_text("not a picture")
+    (folder / "empty.png").write_bytes(b"")
+    (folder / "truncated.png").write_bytes(whole[: len(whole) // 2])
+    (folder / "header.png").write_bytes(whole[:40])
+    (folder / "damaged.png").write_bytes(whole[:60] + b"\0" * 20 + whole[80:])
+    Image.fromarray(NOISE).save(folder / "whole.jpg")
+    (folder / "truncated.jpg").write_bytes((folder / "whole.jpg").read_bytes()[:900])
+    Image.fromarray(NOISE[:1, :1]).save(folder / "dot.png")
+    Image.fromarray(NOISE).convert("RGBA").save(folder / "alpha.png")
+    Image.fromarray(NOISE).convert("L").save(folder / "key.png", transparency=0)
+    Image.fromarray(NOISE[..., 0].astype(np.uint16) * 256).save(folder / "deep.png")
+    Image.new("1", (20_000, 10_000)).save(folder / "huge.png")
+    (folder / "program.eps").write_text("%!PS-Adobe-3.0 EPSF-3.0\n%%BoundingBox: 0 0 64 64\n")
+    (folder / "folder.png").mkdir()
+
+
+@pytest.mark.parametrize(
+    ("name", "expected"),
+    [
+        ("text.png", "not a picture"),
+        ("empty.png", "not a picture"),
+        ("truncated.png", "cannot be read as a picture"),
+        ("header.png", "not a picture"),
+        ("damaged.png", "cannot be read as a picture"),
+        ("truncated.jpg", "cannot be read as a picture"),
+        ("dot.png", "is 1 x 1 pixels; each side needs 32"),
+        ("alpha.png", "has an alpha channel"),
+        ("key.png", "has an alpha channel"),
+        ("deep.png", "8 bits a channel"),
+        ("huge.png", "1 million pixels at most"),
+        ("program.eps", "not a picture"),
+        ("folder.png", "cannot be read as a picture"),
+    ],
+)
+def test_bad_pictures_are_refused_in_one_line(tmp_path, name, expected):
+    _bad(tmp_path)
+    with pytest.raises(InputError) as raised:
+        read_photo(tmp_path / name, LIMITS)
+    line = str(raised.value)
+    assert line.startswith(str(tmp_path / name))
+    assert expected in line
+    assert "\n" not in line
+
+
+def test_a_folder_gives_its_pictures_by_name(tmp_path):
+    for name in ("b.PNG", "a.jpg", "notes.txt"):
+        (tmp_path / name).touch()
+    assert [file.name for file in photo_files(tmp_path)] == ["a.jpg", "b.PNG"]
+    assert photo_files(tmp_path / "a.jpg") == [tmp_path / "a.jpg"]
+
+
+def test_nothing_there_is_said(tmp_path):
+    with pytest.raises(InputError, match="no such file or folder"):
+        photo_files(tmp_path / "gone.png")
+    with pytest.raises(InputError, match="holds no picture"):
+        photo_files(tmp_path)

@@ -1,0 +1,161 @@
+"""From a folder of results to a real store: tags, nothing twice, and failures in one line."""
+
+import hashlib
+import json
+import logging
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import mlflow
+import pandas as pd
+import pytest
+
+from grasptypes.params import read_yaml
+from grasptypes.predictors.metrics import METRICS
+from grasptypes.predictors.weights import WEIGHTS_VARIABLE
+from grasptypes.reports.results import CURVE_SCHEMA, METRIC_SCHEMA
+from grasptypes.runs.publishing import checksum, finished_models, publish_runs, version_tags
+from grasptypes.runs.tracking import KEY_TAG
+from grasptypes.tables import write_table
+
+PROJECT = Path(__file__).parents[3]
+
+
+def git(root, *arguments):
+    who = ["-c", "user.name=A", "-c", "user.email=a@example.org"]
+    command = ["git", "-C", str(root), *who, *arguments]
+    return subprocess.run(command, capture_output=True, text=True, check=True).stdout.strip()
+
+
+@pytest.fixture(scope="module")
+def results(tmp_path_factory):
+    """A checkout with one trained model: two folds, one seed."""
+    root = tmp_path_factory.mktemp("checkout")
+    files = {
+        "params.yaml": (PROJECT / "params.yaml").read_text(),
+        "dvc.lock": "schema: '2.0'\n",
+        "data/samples.csv": "object,task\n",
+        "data/folds.csv": "object,view,fold\n",
+        "data/features/apple.npz": "a",
+        "data/features/bowl.npz": "b",
+        "data/backbone.json": json.dumps(
+            {"backbone": "mobilenet_v2", "weights": "elsewhere", "sha256": "0", "input_px": 224}
+        ),
+        "models/simulated/no_task/predictor.json": "{}",
+        "models/simulated/no_task/predictor.safetensors": "",
+        ".gitignore": "/mlflow.*\n/mlruns/\n",
+    }
+    for name, content in files.items():
+        (root / name).parent.mkdir(parents=True, exist_ok=True)
+        (root / name).write_text(content)
+    for folder in ("metrics", "loss_curves"):
+        (root / "reports" / folder / "simulated").mkdir(parents=True)
+    folds = [
+        {"labels": "simulated", "model": "no_task", "group": group, "seed": 0, "n_train": 8,
+         "n_test": 2, **dict.fromkeys(METRICS, 0.5), "backbone": "mobilenet_v2",
+         "weights": "elsewhere", "finetune": "none"}
+        for group in "01"
+    ]  # fmt: skip
+    curves = [
+        {"group": group, "seed": 0, "epoch": 1, "train_loss": 1.0, "test_loss": 2.0}
+        for group in "01"
+    ]
+    write_table(pd.DataFrame(folds), root / "reports/metrics/simulated/no_task.csv", METRIC_SCHEMA)
+    write_table(
+        pd.DataFrame(curves), root / "reports/loss_curves/simulated/no_task.csv", CURVE_SCHEMA
+    )
+    git(root, "init", "-q")
+    git(root, "add", ".")
+    git(root, "commit", "-qm", "results")
+    return root
+
+
+def publish(root):
+    """What ``make publish`` does; returns how many runs are new."""
+    tags = version_tags(root)
+    return publish_runs(finished_models(root), root, tags, read_yaml(root / "params.yaml"))
+
+
+def runs(root):
+    client = mlflow.MlflowClient(f"sqlite:///{root / 'mlflow.db'}")
+    experiment = client.get_experiment_by_name("grasptypes")
+    found = client.search_runs([experiment.experiment_id])
+    return {run.data.tags[KEY_TAG]: run for run in found}
+
+
+def test_every_run_names_commit_lock_and_data(results):
+    publish(results)
+    found = runs(results)
+    assert len(found) == 3
+    for run in found.values():
+        tags = run.data.tags
+        assert tags["mlflow.source.git.commit"] == git(results, "rev-parse", "HEAD")
+        assert tags["git.dirty"] == "False"
+        for name in ("dvc.lock", "data/samples.csv", "data/folds.csv", "data/backbone.json"):
+            expected = hashlib.sha256((results / name).read_bytes()).hexdigest()
+            assert tags[f"sha256.{name}"] == expected
+        assert tags["sha256.data/features"] == checksum(results / "data/features")
+        assert "sha256.data/renders" not in tags  # not there
+
+
+def test_folds_stand_one_level_below_their_model(results):
+    publish(results)
+    parents = [run.data.tags.get("mlflow.parentRunId") for run in runs(results).values()]
+    (top,) = [run for run in runs(results).values() if "mlflow.parentRunId" not in run.data.tags]
+    assert sorted(map(str, parents)) == sorted(["None", top.info.run_id, top.info.run_id])
+
+
+def test_again_adds_nothing_and_a_store_is_rebuilt_alike(results, tmp_path):
+    publish(results)
+    before = runs(results)
+    assert publish(results) == 0
+    assert {k: r.info.run_id for k, r in runs(results).items()} == {
+        k: r.info.run_id for k, r in before.items()
+    }
+    # In a copy, since this process keeps a deleted file open.
+    copy = tmp_path / "copy"
+    shutil.copytree(results, copy, ignore=shutil.ignore_patterns("mlflow.*", "mlruns"))
+    assert publish(copy) == 3
+    after = runs(copy)
+    assert {k: (r.data.params, r.data.metrics, r.info.start_time) for k, r in after.items()} == {
+        k: (r.data.params, r.data.metrics, r.info.start_time) for k, r in before.items()
+    }
+
+
+def test_without_the_weights_the_runs_are_published_all_the_same(results, caplog):
+    with caplog.at_level(logging.WARNING):
+        publish(results)
+    assert "published without their predictors" in caplog.text
+    assert len(runs(results)) == 3
+
+
+def test_the_checksum_of_a_folder_is_that_of_its_listing(results):
+    command = "cd data/features && sha256sum * | sha256sum"
+    shell = subprocess.run(
+        command, shell=True, cwd=results, capture_output=True, text=True, check=True
+    )
+    assert checksum(results / "data/features") == shell.stdout.split()[0]
+
+
+def test_a_store_that_cannot_be_written_costs_one_line(results, tmp_path):
+    """And says what to do later; the call itself may fail, since nothing waits for it."""
+    params = read_yaml(results / "params.yaml")
+    text = (results / "params.yaml").read_text()
+    blocked = tmp_path / "file"
+    blocked.write_text("no folder")
+    database = params["tracking"]["database"]
+    changed = text.replace(f"database: {database}", f"database: {blocked}/mlflow.db")
+    (results / "params.yaml").write_text(changed)
+    environment = {**os.environ, "PYTHONPATH": str(PROJECT / "src")}
+    environment.pop(WEIGHTS_VARIABLE, None)
+    command = [sys.executable, "-m", "grasptypes.runs.publishing"]
+    called = subprocess.run(command, cwd=results, env=environment, capture_output=True, text=True)
+    (results / "params.yaml").write_text(text)
+    assert called.returncode == 1
+    lines = [line for line in called.stderr.splitlines() if "predictors" not in line]
+    assert len(lines) == 1
+    assert lines[0].startswith(f"error: {blocked}/mlflow.db: cannot be written: ")
+    assert lines[0].endswith("show them later with: make publish")

@@ -1,0 +1,80 @@
+"""A good grasp holds, a bad one drops, and a test's result is its own."""
+
+import numpy as np
+import pytest
+from synthesis_cases import PARAMS, URDF, ball_body, ball_grid, model, palm_at
+
+from grasptypes.synthesis.closing import ClosingSettings, close_fingers
+from grasptypes.synthesis.holding import PhysicsSettings
+from grasptypes.synthesis.physics import physics
+
+SETTINGS = PhysicsSettings(**PARAMS["physics"]["test"])
+
+
+def grasp(height, spread):
+    T = palm_at(height)
+    return T[0], close_fingers(model(), ball_grid(), T, np.array([spread]), ClosingSettings(5e-4))[
+        0
+    ]
+
+
+GOOD, OTHER = grasp(0.0305, 0.0), grasp(0.06, 0.8)
+
+
+def bytes_of(held):
+    numbers = [held.moved_m, held.turned_rad, *(contact.force_n for contact in held.contacts)]
+    return (
+        held.T_object_hand.tobytes() + held.joint_angles_rad.tobytes() + np.array(numbers).tobytes()
+    )
+
+
+@pytest.fixture
+def body(tmp_path):
+    return ball_body(tmp_path)
+
+
+def test_an_enclosed_ball_is_held_with_forces_that_carry_it(body) -> None:
+    with physics(URDF, body, SETTINGS) as world:
+        held = world.hold(*GOOD)
+    assert not held.dropped
+    assert held.moved_m < 0.002
+    assert len({contact.link for contact in held.contacts}) >= 3
+    for contact in held.contacts:
+        assert np.linalg.norm(contact.point_m) == pytest.approx(0.03, abs=0.002)
+        assert contact.normal @ contact.point_m < 0
+    assert max(contact.force_n for contact in held.contacts) > 1.0
+
+
+def test_nothing_holds_without_friction_from_below_or_far_away(body) -> None:
+    upside_down = GOOD[0].copy()
+    upside_down[2, 3] = 0.3
+    with physics(URDF, body, SETTINGS) as world:
+        assert world.hold(upside_down, GOOD[1]).dropped
+    with physics(URDF, body, SETTINGS._replace(friction=0.0)) as world:
+        tips = grasp(0.105, 0.0)
+        assert world.hold(*tips).dropped
+
+
+def test_result_does_not_depend_on_the_tests_before(body) -> None:
+    with physics(URDF, body, SETTINGS) as world:
+        alone = bytes_of(world.hold(*GOOD))
+    with physics(URDF, body, SETTINGS) as world:
+        world.hold(*OTHER)
+        after_another = bytes_of(world.hold(*GOOD))
+        again = bytes_of(world.hold(*GOOD))
+    assert alone == after_another == again
+
+
+def test_shaking_reports_the_worst_direction(body) -> None:
+    with physics(URDF, body, SETTINGS) as world:
+        still = world.hold(*GOOD)
+        once = world.steps
+    with physics(URDF, body, SETTINGS._replace(shake=True)) as world:
+        shaken = world.hold(*GOOD)
+        assert world.steps == 6 * once
+    assert shaken.moved_m >= still.moved_m
+
+
+def test_a_heavy_ball_is_dropped(tmp_path) -> None:
+    with physics(URDF, ball_body(tmp_path, mass_kg=20.0), SETTINGS) as world:
+        assert world.hold(*OTHER).dropped

@@ -1,0 +1,129 @@
+"""Every flaw has its reason, every session its row, and every row meets its schema."""
+
+from dataclasses import dataclass, field
+
+import numpy as np
+import pandas as pd
+import pandera.pandas as pa
+import pytest
+from synthesis_cases import PARAMS, ball_grid, ball_person, ball_thing, model, palm_at
+
+from grasptypes.contact_maps.contact_map import ContactMap
+from grasptypes.hand import configuration, kinematics
+from grasptypes.synthesis.closing import ClosingSettings, close_fingers
+from grasptypes.synthesis.grasps import ATTEMPT_SCHEMA, GRASP_SCHEMA
+from grasptypes.synthesis.holding import Contact, Held
+from grasptypes.synthesis.settings import search_settings
+from grasptypes.synthesis.trials import Hand, Problem, ValiditySettings, synthesize, try_grasp
+from grasptypes.tables import read_table, write_table
+
+VALIDITY = ValiditySettings(**PARAMS["physics"]["validity"])
+T = palm_at(0.035)
+ANGLES = close_fingers(model(), ball_grid(), T, np.array([0.0]), ClosingSettings(5e-4))[0]
+
+
+@dataclass
+class World:
+    """Physics of which the outcome is known: the n-th grasp holds if the n-th entry says so."""
+
+    holds: list[bool]
+    links: tuple[int, ...] = (6, 7, 8)
+    sink_m: float = 0.0
+    seen: int = field(default=0)
+
+    def hold(self, T_object_hand, joint_angles_rad):
+        dropped = not self.holds[self.seen % len(self.holds)]
+        self.seen += 1
+        pose = T_object_hand.copy()
+        pose[2, 3] -= self.sink_m
+        down = np.array([0.0, 0.0, -1.0])
+        contacts = [Contact(link, -0.03 * down, down, 2.0) for link in self.links]
+        return Held(dropped, 0.001, 0.01, pose, joint_angles_rad, contacts)
+
+
+def tried(world, T_object_hand=T[0], angles=ANGLES):
+    return try_grasp(T_object_hand, angles, ball_thing(), model(), world, VALIDITY)
+
+
+def test_a_held_grasp_is_valid() -> None:
+    assert tried(World([True])).reason == ""
+
+
+def test_reasons() -> None:
+    beyond, crossed = ANGLES.copy(), kinematics.couple(np.radians([90.0, 110.0, 110.0, 0.0]))
+    beyond[2] = np.radians(144.0)
+    world = World([True])
+    assert tried(world, angles=beyond).reason == "joint_limit"
+    assert tried(world, palm_at(5.0)[0], crossed).reason == "self_collision"
+    assert tried(world, palm_at(0.025)[0], np.zeros(8)).reason == "penetrates"
+    assert tried(world, palm_at(0.5)[0], np.zeros(8)).reason == "no_contact"
+    assert world.seen == 0
+    assert tried(World([False])).reason == "dropped"
+    assert tried(World([True], links=(6,))).reason == "no_contact"
+    assert tried(World([True], sink_m=0.01)).reason == "penetrates"
+
+
+def contact_map(sessions=3) -> ContactMap:
+    person = ball_person()
+    count = len(person.points_m)
+    return ContactMap(
+        points=person.points_m.astype(np.float32),
+        normals=person.normals.astype(np.float32),
+        part_index=np.zeros(count, np.int16),
+        part_names=np.array(["ball"]),
+        probability=person.contact.astype(np.float32),
+        sessions=np.tile(person.contact.astype(np.float32), (sessions, 1)),
+        style=np.array(["power"] * sessions),
+        grip=np.array(["enclose"] * sessions),
+        part=np.array(["*"] * sessions),
+        approach=np.tile(np.float32(person.approach), (sessions, 1)),
+        closing=np.tile(np.float32(person.closing), (sessions, 1)),
+        centre_m=np.zeros((sessions, 3), np.float32),
+        height=np.zeros(sessions, np.float32),
+        hand_length_m=np.full(sessions, 0.2, np.float32),
+    )
+
+
+def synthesized(world, sessions=3):
+    settings = search_settings(PARAMS["synthesis"])
+    settings = settings._replace(
+        candidates=settings.candidates._replace(number=60),
+        refinement=settings.refinement._replace(parents=4, rounds=1),
+    )
+    problem = Problem("ball", "use", ball_thing(), contact_map(sessions), 0)
+    return synthesize(problem, Hand(model(), model()), world, settings, VALIDITY)
+
+
+def test_every_attempt_is_kept_and_the_first_valid_one_is_the_grasp(tmp_path) -> None:
+    grasps, attempts = synthesized(World([False, True]))
+    assert grasps.session.tolist() == [1, 2, 3]
+    assert grasps.valid.all()
+    assert grasps.tries.sum() == len(attempts)
+    assert attempts.reason.tolist().count("") == 3
+    for row in grasps.itertuples():
+        assert configuration.unpack(row.hand_configuration).rank_index == row.rank
+        assert len(row.contact_points_m) == 3 * len(row.contact_links)
+    for name, table, schema in (("g", grasps, GRASP_SCHEMA), ("a", attempts, ATTEMPT_SCHEMA)):
+        write_table(table, tmp_path / f"{name}.parquet", schema)
+        assert len(read_table(tmp_path / f"{name}.parquet", schema)) == len(table)
+
+
+def test_without_a_valid_grasp_the_best_is_kept_with_its_reason() -> None:
+    grasps, attempts = synthesized(World([False]))
+    assert not grasps.valid.any()
+    assert (grasps["rank"] == 0).all()
+    assert (grasps.reason == "dropped").all()
+    assert len(attempts) > len(grasps)
+
+
+def test_a_session_does_not_depend_on_the_others() -> None:
+    three, _ = synthesized(World([True]))
+    one, _ = synthesized(World([True]), sessions=1)
+    pd.testing.assert_frame_equal(three.head(1), one)
+
+
+def test_schema_refuses_a_valid_grasp_with_a_reason() -> None:
+    _, attempts = synthesized(World([True]))
+    attempts.loc[0, "reason"] = "dropped"
+    with pytest.raises(pa.errors.SchemaError):
+        ATTEMPT_SCHEMA.validate(attempts)

@@ -1,0 +1,73 @@
+import os
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from grasptypes.errors import InputError
+from grasptypes.versions.guard import check_cache_links, release_dead_lock
+
+HOLDER = """
+import sys, time
+from grasptypes.errors import InputError
+from grasptypes.versions.guard import check_cache_links, release_dead_lock
+lock = release_dead_lock(sys.argv[1])
+print("held", flush=True)
+time.sleep(60)
+"""
+
+
+def hold(state: Path) -> subprocess.Popen:
+    environment = {**os.environ, "PYTHONPATH": str(Path(__file__).parents[3] / "src")}
+    process = subprocess.Popen(
+        [sys.executable, "-c", HOLDER, str(state)],
+        env=environment,
+        stdout=subprocess.PIPE,
+        text=True,
+    )
+    assert process.stdout is not None
+    assert process.stdout.readline() == "held\n"
+    return process
+
+
+def test_a_killed_run_leaves_no_lock(tmp_path: Path) -> None:
+    state = tmp_path / ".snakemake"
+    process = hold(state)
+    (state / "locks" / "0.input.lock").write_text("reports/table1.csv")
+    process.send_signal(signal.SIGKILL)
+    process.wait()
+    lock = release_dead_lock(state)
+    assert lock is not None
+    assert list((state / "locks").iterdir()) == []
+    lock.close()
+
+
+def test_a_living_run_keeps_its_lock_and_is_named(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    state = tmp_path / ".snakemake"
+    process = hold(state)
+    try:
+        held = state / "locks" / "0.input.lock"
+        held.write_text("reports/table1.csv")
+        assert release_dead_lock(state, patience_s=0.2) is None
+        assert held.exists()
+        assert f"process {process.pid}" in capsys.readouterr().err
+    finally:
+        process.kill()
+        process.wait()
+
+
+@pytest.mark.parametrize("types", ["hardlink", "symlink", '"reflink,hardlink,copy"'])
+def test_a_cache_of_links_is_refused(tmp_path: Path, types: str) -> None:
+    (tmp_path / ".dvc").mkdir()
+    (tmp_path / ".dvc" / "config.local").write_text(f"[cache]\n    type = {types}\n")
+    with pytest.raises(InputError, match=r"cache\.type"):
+        check_cache_links(tmp_path)
+
+
+def test_copies_and_reflinks_are_fine(tmp_path: Path) -> None:
+    check_cache_links(tmp_path)
+    check_cache_links(Path(__file__).parents[3])
