@@ -5,6 +5,7 @@ import os
 import sys
 from pathlib import Path
 
+from snakemake.persistence import PersistenceBase
 from snakemake.utils import min_version
 
 min_version("9.17")
@@ -12,10 +13,12 @@ min_version("9.17")
 sys.path.insert(0, str(Path(workflow.basedir) / "src"))
 
 from grasptypes.versions.guard import release_dead_lock, use_this_checkout
+from grasptypes.versions.job_records import distrust_unrecorded
 
 use_this_checkout(workflow.basedir)
 if workflow.is_main_process:
     running_lock = release_dead_lock()
+    distrust_unrecorded(PersistenceBase)
 
 
 configfile: "params.yaml"

@@ -1,9 +1,10 @@
 """Snakemake and DVC agree on what is stale, whoever is asked and wherever the files come from."""
 
+import shutil
 from pathlib import Path
 
 import pytest
-from repository import Repository
+from repository import TARGET, Repository
 
 
 def test_a_clone_that_pulls_has_nothing_to_do(changed: Repository, tmp_path: Path) -> None:
@@ -15,6 +16,22 @@ def test_a_clone_that_pulls_has_nothing_to_do(changed: Repository, tmp_path: Pat
     clone.dvc("pull")
     assert clone.snakemake_is_clean("all")
     assert clone.dvc_is_clean()
+    part = clone.path / "data/renders"
+    shutil.rmtree(part)
+    assert clone.snakemake_is_clean()
+
+
+def test_a_clone_that_does_not_pull_computes_what_git_holds_tables_of(
+    fresh: Repository, changed: Repository, tmp_path: Path
+) -> None:
+    changed.git("clone", "-q", ".", str(tmp_path / "clone"))
+    clone = Repository(tmp_path / "clone")
+    assert (clone.path / "reports/table1.csv").exists()
+    assert clone.planned(TARGET) == fresh.planned(TARGET)
+    clone.snakemake("data/folds.csv")
+    planned = clone.planned(TARGET)
+    assert planned["train_predictor"] == fresh.planned(TARGET)["train_predictor"]
+    assert planned["split_folds"] == planned["render_object"] == 0
 
 
 @pytest.mark.parametrize(

@@ -3,6 +3,7 @@ from grasptypes.contact_maps.affinities import read_affinities
 from grasptypes.errors import InputError
 from grasptypes.versions.guard import check_cache_links
 from grasptypes.objects.own_objects import check_every_hold, check_own_objects, measured_map
+from grasptypes.versions.job_records import is_recorded
 from grasptypes.params import read_yaml, validate_params
 from grasptypes.versions.provenance import FileHash, code_hash
 from grasptypes.predictors.weights import DOWNLOAD_SHA256_START, WEIGHTS_VARIABLE, chosen_weights
@@ -80,9 +81,10 @@ def without_scan():
 def weights_choice(record="data/backbone.json"):
     """The user's choice of weights; without one, that of the results at hand.
 
-    So results that were pulled are not computed again for want of the weights they were made with.
+    So results that were pulled are not computed again for want of the weights they were made with;
+    those that only lie in git are, with the weights there are.
     """
-    if WEIGHTS_VARIABLE in os.environ or not Path(record).is_file():
+    if WEIGHTS_VARIABLE in os.environ or not (Path(record).is_file() and is_recorded(record)):
         return chosen_weights()
     found = json.loads(Path(record).read_text())
     downloaded = found["sha256"].startswith(DOWNLOAD_SHA256_START)

@@ -79,7 +79,13 @@ def _local_imports(path: Path) -> set[Path]:
             modules |= {alias.name for alias in node.names}
         elif isinstance(node, ast.ImportFrom) and node.module:
             modules |= {node.module} | {f"{node.module}.{alias.name}" for alias in node.names}
-    local = {module for module in modules if module.split(".")[0] == _PACKAGE}
+    parts = [module.split(".") for module in modules]
+    local = {
+        ".".join(part[:depth])  # importing a module runs the packages it lies in
+        for part in parts
+        if part[0] == _PACKAGE
+        for depth in range(1, len(part) + 1)
+    }
     return {file for module in local if (file := _module_file(module)) is not None}
 
 

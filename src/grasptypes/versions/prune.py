@@ -8,12 +8,12 @@ this, a removed object's files would travel with the data for ever.
 
 from __future__ import annotations
 
-import base64
 import logging
 from collections.abc import Collection
 from pathlib import Path
 
 from grasptypes.params import read_yaml
+from grasptypes.versions.job_records import RECORDS, recorded_result
 
 OBJECT_FOLDERS = (
     "data/objects",
@@ -26,7 +26,6 @@ OBJECT_FOLDERS = (
 )
 TASK_FOLDERS = ("data/contact_maps", "data/grasps", "data/attempts")
 PICTURE_FOLDERS = ("reports/figures/contact_maps", "reports/figures/grasps")
-RECORDS = ".snakemake/metadata"
 
 logger = logging.getLogger(__name__)
 
@@ -44,7 +43,7 @@ def prune(root: str | Path, objects: Collection[str], tasks: Collection[str]) ->
         _remove_empty_folders((root / path).parent, root)
     left = {str(path) for path in gone}
     for record in sorted((root / RECORDS).rglob("*")):
-        if record.is_file() and _recorded_path(record.relative_to(root / RECORDS)) in left:
+        if record.is_file() and recorded_result(record.relative_to(root / RECORDS)) in left:
             record.unlink()
             _remove_empty_folders(record.parent, root / RECORDS)
     return gone
@@ -68,12 +67,6 @@ def _is_kept(path: Path, objects: Collection[str], tasks: Collection[str]) -> bo
     if folder in TASK_FOLDERS and rest:
         return name in objects and rest[0].split(".")[0] in tasks
     return name in objects
-
-
-def _recorded_path(record: Path) -> str:
-    """The output a record of Snakemake's is about: its name is the path in URL-safe base64."""
-    encoded = "".join(part.removeprefix("@") for part in record.parts)
-    return base64.urlsafe_b64decode(encoded).decode()
 
 
 def _remove_empty_folders(folder: Path, root: Path) -> None:

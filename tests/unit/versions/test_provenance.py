@@ -53,6 +53,12 @@ def test_code_hash_sees_statements_everywhere_below_and_nothing_else(checkout: P
     assert hash_of(checkout) != changed
 
 
+def test_code_hash_sees_the_packages_that_an_import_runs(checkout: Path) -> None:
+    before = hash_of(checkout)
+    (checkout / "src" / "grasptypes" / "__init__.py").write_text("SETTING = 1\n")
+    assert hash_of(checkout) != before
+
+
 def test_code_hash_is_the_same_in_every_checkout(checkout: Path, tmp_path: Path) -> None:
     shutil.copytree(checkout, tmp_path / "elsewhere")
     assert hash_of(tmp_path / "elsewhere") == hash_of(checkout)
