@@ -4,6 +4,7 @@ import importlib
 import sys
 
 import pytest
+from hosts import serving
 
 
 def pytest_collection_finish(session: pytest.Session) -> None:
@@ -14,3 +15,10 @@ def pytest_collection_finish(session: pytest.Session) -> None:
     if "torch" in sys.modules:
         importlib.import_module("torchvision")
         importlib.import_module("torch._dynamo")
+
+
+@pytest.fixture(scope="session")
+def host():
+    """Address of a host on this machine; see hosts.py."""
+    with serving() as address:
+        yield address

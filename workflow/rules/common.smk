@@ -6,6 +6,12 @@ from grasptypes.objects.own_objects import check_every_hold, check_own_objects, 
 from grasptypes.versions.job_records import is_recorded
 from grasptypes.params import read_yaml, validate_params
 from grasptypes.versions.provenance import FileHash, code_hash
+from grasptypes.labels.published_source import (
+    FETCHED,
+    check_published,
+    published_address,
+    published_path,
+)
 from grasptypes.predictors.weights import DOWNLOAD_SHA256_START, WEIGHTS_VARIABLE, chosen_weights
 
 SCHEMA = read_yaml(Path(workflow.basedir) / "workflow" / "schemas" / "params.schema.yaml")
@@ -21,6 +27,8 @@ try:
     AFFINITIES = config["contact_maps"]["affinities"]
     HOLDS = read_affinities(AFFINITIES, {*CATALOGUE, *OBJECTS}, TASKS)
     check_every_hold(config["objects"], TASKS, HOLDS, AFFINITIES)
+    check_published(os.environ)
+    PUBLISHED_CSV = published_path(os.environ) or []
 except InputError as error:
     sys.exit(f"error: {error}")
 
@@ -66,15 +74,15 @@ def contact_settings(wildcards):
     return settings("contact_maps", "measured") | {"holds": holds}
 
 
-def published_data(variable, suffix=""):
-    """The file, or all files with a suffix below the folder, an environment variable names."""
-    named = os.environ.get(variable, "")
-    return sorted(map(str, Path(named).glob(f"*{suffix}"))) if named and suffix else named or []
+def reference_meshes():
+    """The scans in the folder that the user names, if any."""
+    named = os.environ.get("GRASPTYPES_REFERENCE_MESHES")
+    return sorted(map(str, Path(named).glob("*.stl"))) if named else []
 
 
 def without_scan():
     """Objects that the folder of reference meshes lacks; none if there is no folder."""
-    scans = {Path(path).stem for path in published_data("GRASPTYPES_REFERENCE_MESHES", ".stl")}
+    scans = {Path(path).stem for path in reference_meshes()}
     return [name for name in OBJECTS if name not in scans] if scans else []
 
 

@@ -3,8 +3,8 @@
 
 rule evaluate_labels:
     input:
-        published=published_data("GRASPTYPES_PUBLISHED_CSV"),
-        references=published_data("GRASPTYPES_REFERENCE_MESHES", ".stl"),
+        published=PUBLISHED_CSV,
+        references=reference_meshes(),
         # Models of our own stand in where there is no scan.
         own=expand("data/objects/{object}/surface.npz", object=without_scan()),
     output:

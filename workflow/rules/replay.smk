@@ -1,10 +1,28 @@
 # The hand put at the published poses: a check of frames, scale and kinematics.
 
 
+# Needed only where the published table is named by its URL; the address holds its checksum.
+rule fetch_published:
+    output:
+        table=FETCHED,
+    log:
+        "logs/fetch_published.log",
+    conda:
+        "../envs/grasptypes.yaml"
+    params:
+        address=list(published_address(os.environ) or []),
+        timeout_s=config["published"]["timeout_s"],
+        code=script_hash("fetch_published"),
+    message:
+        "Fetching the published grasps"
+    script:
+        "../scripts/fetch_published.py"
+
+
 rule replay_grasps:
     input:
-        published=published_data("GRASPTYPES_PUBLISHED_CSV"),
-        references=published_data("GRASPTYPES_REFERENCE_MESHES", ".stl"),
+        published=PUBLISHED_CSV,
+        references=reference_meshes(),
     output:
         # Kept as it is where the data are lacking.
         table=report(
@@ -34,8 +52,8 @@ rule replay_grasps:
 rule derive_affinities:
     input:
         surfaces=expand(rules.prepare_object.output.surface, object=OBJECTS),
-        published=published_data("GRASPTYPES_PUBLISHED_CSV"),
-        references=published_data("GRASPTYPES_REFERENCE_MESHES", ".stl"),
+        published=PUBLISHED_CSV,
+        references=reference_meshes(),
     output:
         evidence="reports/contact_evidence/grasps.csv",
         summary="reports/contact_evidence/summary.csv",

@@ -6,11 +6,10 @@ from pathlib import Path
 from grasptypes.errors import InputError
 from grasptypes.jobs import job
 from grasptypes.labels.published import read_published
+from grasptypes.labels.published_data import REFERENCES
+from grasptypes.labels.published_source import PUBLISHED, published_path
 from grasptypes.labels.replay import REPLAY_SCHEMA, ReplaySettings, replay
 from grasptypes.tables import write_table
-
-PUBLISHED = "GRASPTYPES_PUBLISHED_CSV"
-REFERENCES = "GRASPTYPES_REFERENCE_MESHES"
 
 
 def replay_grasps(published: str, references: str, settings: ReplaySettings, target: Path) -> str:
@@ -36,7 +35,7 @@ def replay_grasps(published: str, references: str, settings: ReplaySettings, tar
 if __name__ == "__main__":
     with job(snakemake.log) as log:
         line = replay_grasps(
-            os.environ.get(PUBLISHED, ""),
+            published_path(os.environ),
             os.environ.get(REFERENCES, ""),
             ReplaySettings(**snakemake.params.settings),
             Path(snakemake.output.table),

@@ -10,10 +10,12 @@ from grasptypes.labels.agreement import Judged, judge
 from grasptypes.labels.contacts import ContactSettings
 from grasptypes.labels.published import read_published
 from grasptypes.labels.published_objects import object_distances
+from grasptypes.labels.published_source import PUBLISHED, published_path
 
-PUBLISHED, REFERENCES = "GRASPTYPES_PUBLISHED_CSV", "GRASPTYPES_REFERENCE_MESHES"
+REFERENCES = "GRASPTYPES_REFERENCE_MESHES"
 SOURCES = {
-    PUBLISHED: "get GraspTypesWithTasks.csv from github.com/nikleer/GraspTypesWithTasks",
+    PUBLISHED: "get GraspTypesWithTasks.csv from github.com/nikleer/GraspTypesWithTasks, or give "
+    "its URL and checksum: https://...#sha256=<64 hex digits>",
     REFERENCES: "get a folder of <object>.stl from github.com/F1sh-Fang/contactdb_assets",
 }
 
@@ -24,7 +26,8 @@ def lacking_data(environment: Mapping[str, str]) -> str:
     Returns:
         One line, empty if nothing is lacking.
     """
-    absent = [name for name in SOURCES if not Path(environment.get(name) or "missing").exists()]
+    places = {PUBLISHED: published_path(environment), REFERENCES: environment.get(REFERENCES)}
+    absent = [name for name, place in places.items() if not Path(place or "missing").exists()]
     return "; ".join(
         f"{name}={environment.get(name, '')} names nothing, {SOURCES[name]}" for name in absent
     )
@@ -36,12 +39,12 @@ def judge_published(
     """Measure all published poses that have a type, a configuration and an object.
 
     Args:
-        environment: names the published table and the folder of reference meshes.
+        environment: names the published table, by path or URL, and the folder of reference meshes.
         own: folder of the objects prepared here, for those without a reference mesh.
         scale: of the reference meshes.
         settings: `contacts` and `own_frames`, of the `grasp_types` section of params.yaml.
     """
-    published = read_published(environment[PUBLISHED])
+    published = read_published(published_path(environment))
     names = sorted(published.object.unique())
     references = environment[REFERENCES]
     fields = object_distances(names, references, own, scale, settings["own_frames"])

