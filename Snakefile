@@ -12,6 +12,8 @@ min_version("9.17")
 # The code of this checkout, whatever is installed: a copy of the repository must run its own.
 sys.path.insert(0, str(Path(workflow.basedir) / "src"))
 
+from grasptypes.errors import InputError
+from grasptypes.params import load_params, read_yaml
 from grasptypes.versions.guard import release_dead_lock, use_this_checkout
 from grasptypes.versions.job_records import distrust_unrecorded
 
@@ -19,6 +21,13 @@ use_this_checkout(workflow.basedir)
 if workflow.is_main_process:
     running_lock = release_dead_lock()
     distrust_unrecorded(PersistenceBase)
+
+# Before Snakemake reads them: it lets a duplicate key pass, and runs code where `__use_yte__` stands.
+SCHEMA = Path(workflow.basedir) / "workflow" / "schemas" / "params.schema.yaml"
+try:
+    load_params("params.yaml", SCHEMA)
+except InputError as error:
+    sys.exit(f"error: {error}")
 
 
 configfile: "params.yaml"

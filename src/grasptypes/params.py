@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Hashable, Mapping
 from pathlib import Path
 from typing import Any
@@ -13,17 +14,27 @@ from grasptypes.errors import InputError
 
 
 class _StrictLoader(yaml.SafeLoader):
-    """A safe loader that refuses duplicate keys, which YAML would silently let the last one win."""
+    """A safe loader that takes text keys only, each once: YAML would let the last one win."""
 
     def construct_mapping(self, node: yaml.MappingNode, deep: bool = False) -> dict[Hashable, Any]:
         seen = set()
         for key_node, _ in node.value:
-            if key_node.value in seen:
-                raise yaml.constructor.ConstructorError(
-                    None, None, f"key '{key_node.value}' is there twice", key_node.start_mark
-                )
+            problem, kind = "", key_node.tag.split(":")[-1]
+            if kind not in ("str", "merge"):
+                problem = f"a key must be text (quote it), not {kind}"
+            elif key_node.value in seen:
+                problem = f"key '{key_node.value}' is there twice"
+            if problem:
+                raise yaml.constructor.ConstructorError(None, None, problem, key_node.start_mark)
             seen.add(key_node.value)
         return super().construct_mapping(node, deep)
+
+    def construct_object(self, node: yaml.Node, deep: bool = False) -> Any:
+        try:
+            return super().construct_object(node, deep)
+        except (ValueError, KeyError, AttributeError) as error:  # such as 2020-99-99, !!bool x
+            problem = f"'{node.value}' is not what {node.tag.split(':')[-1]} looks like"
+            raise yaml.constructor.ConstructorError(None, None, problem, node.start_mark) from error
 
 
 def read_yaml(path: str | Path) -> dict[str, Any]:
@@ -37,8 +48,12 @@ def read_yaml(path: str | Path) -> dict[str, Any]:
         content = yaml.load(path.read_text(encoding="utf-8"), _StrictLoader)
     except FileNotFoundError as error:
         raise InputError(path, "", "no such file") from error
+    except IsADirectoryError as error:
+        raise InputError(path, "", "is a folder") from error
     except UnicodeDecodeError as error:
         raise InputError(path, "", f"not UTF-8 text: {error}") from error
+    except RecursionError as error:
+        raise InputError(path, "", "not valid YAML: nested too deeply") from error
     except yaml.YAMLError as error:
         mark = getattr(error, "problem_mark", None)
         line = f"line {mark.line + 1}" if mark else ""
@@ -62,6 +77,7 @@ def validate_params(
     if error is not None:
         key = ".".join(str(part) for part in error.absolute_path)
         raise InputError(path, key, _explain(error))
+    _check_finite(params, path)
 
 
 def load_params(path: str | Path, schema_path: str | Path) -> dict[str, Any]:
@@ -79,6 +95,18 @@ def merge(base: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str, Any]
         both = isinstance(value, Mapping) and isinstance(old, Mapping)
         merged[key] = merge(old, value) if both else value
     return merged
+
+
+def _check_finite(content: Any, path: str | Path, key: str = "") -> None:
+    """Refuse .nan and .inf, which pass every comparison of a schema or nearly so."""
+    if isinstance(content, Mapping):
+        for name, value in content.items():
+            _check_finite(value, path, f"{key}.{name}" if key else str(name))
+    elif isinstance(content, list):
+        for index, value in enumerate(content):
+            _check_finite(value, path, f"{key}.{index}")
+    elif isinstance(content, float) and not math.isfinite(content):
+        raise InputError(path, key, f"{content} is not a finite number")
 
 
 def _explain(error: jsonschema.ValidationError) -> str:

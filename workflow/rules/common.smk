@@ -1,36 +1,19 @@
 # What all rules share: the checked parameters, the names to loop over, and content hashes.
-from grasptypes.contact_maps.affinities import read_affinities
-from grasptypes.errors import InputError
-from grasptypes.versions.guard import check_cache_links
-from grasptypes.objects.own_objects import check_every_hold, check_own_objects, measured_map
-from grasptypes.versions.job_records import is_recorded
-from grasptypes.params import read_yaml, validate_params
-from grasptypes.versions.provenance import FileHash, code_hash
-from grasptypes.labels.published_source import (
-    FETCHED,
-    check_published,
-    published_address,
-    published_path,
-)
+from grasptypes.labels.published_source import FETCHED, published_address, published_path
+from grasptypes.objects.own_objects import measured_map
 from grasptypes.predictors.weights import DOWNLOAD_SHA256_START, WEIGHTS_VARIABLE, chosen_weights
-
-SCHEMA = read_yaml(Path(workflow.basedir) / "workflow" / "schemas" / "params.schema.yaml")
+from grasptypes.start_up import check_start
+from grasptypes.versions.job_records import is_recorded
+from grasptypes.versions.provenance import FileHash, code_hash
 
 try:
-    check_cache_links(workflow.basedir)
-    read_yaml("params.yaml")  # Snakemake itself would let a duplicate key pass
-    validate_params(config, SCHEMA)
-    OBJECTS = [*config["objects"]["names"], *config["objects"]["own"]]
-    TASKS = list(config["tasks"])
-    CATALOGUE = SCHEMA["properties"]["objects"]["properties"]["names"]["items"]["enum"]
-    check_own_objects(config["objects"], TASKS)
-    AFFINITIES = config["contact_maps"]["affinities"]
-    HOLDS = read_affinities(AFFINITIES, {*CATALOGUE, *OBJECTS}, TASKS)
-    check_every_hold(config["objects"], TASKS, HOLDS, AFFINITIES)
-    check_published(os.environ)
+    HOLDS = check_start(config, read_yaml(SCHEMA), workflow.basedir, os.environ)
     PUBLISHED_CSV = published_path(os.environ) or []
 except InputError as error:
     sys.exit(f"error: {error}")
+
+OBJECTS = [*config["objects"]["names"], *config["objects"]["own"]]
+TASKS = list(config["tasks"])
 
 file_hash = FileHash(".snakemake/file_hashes.json")
 

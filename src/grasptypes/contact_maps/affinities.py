@@ -75,11 +75,17 @@ def read_affinities(
     """
     path = Path(path)
     try:
-        text = path.read_text(encoding="utf-8")
-    except FileNotFoundError as error:
+        text = path.read_text(encoding="utf-8-sig")
+    except (FileNotFoundError, IsADirectoryError) as error:
         raise InputError(path, "", "no such affinity table") from error
-    rows = csv.DictReader(text.splitlines())
-    if tuple(rows.fieldnames or ()) != COLUMNS:
+    except UnicodeDecodeError as error:
+        raise InputError(path, "", f"not UTF-8 text: {error}") from error
+    reader = csv.DictReader(text.splitlines())
+    try:
+        rows = list(reader)
+    except csv.Error as error:
+        raise InputError(path, f"line {reader.line_num}", f"not a CSV row: {error}") from error
+    if tuple(reader.fieldnames or ()) != COLUMNS:
         raise InputError(path, "line 1", f"the columns must be {', '.join(COLUMNS)}")
     table: dict[tuple[str, str], list[Hold]] = {}
     for line, row in enumerate(rows, start=2):

@@ -1,5 +1,6 @@
 """The authors' published dataset: one row an object, task and session, with its grasp's label."""
 
+import csv
 import io
 from collections.abc import Callable
 from pathlib import Path
@@ -24,6 +25,9 @@ GRASP_TYPES = (
 
 # Published numbers have six digits; a pose further from a rigid one is not a rounding error.
 RIGID_TOLERANCE = 1e-3
+# Beyond these a unit is wrong: published palms are within 0.2 m, their joints within half a turn.
+FARTHEST_PALM_M = 2.0
+LARGEST_ANGLE_RAD = 2 * np.pi
 
 
 def _whole(text: str) -> int:
@@ -82,10 +86,15 @@ def parse_configuration(text: str) -> NDArray[np.float64] | None:
         raise ValueError(f"has {len(numbers)} numbers instead of {configuration.LENGTH}")
     if numbers[0] < 0 or numbers[0] % 1:
         raise ValueError(f"its rank index {numbers[0]} is not a whole number from 0 up")
-    rotation = configuration.unpack(numbers).T_object_hand[:3, :3]
+    hand = configuration.unpack(numbers)
+    rotation = hand.T_object_hand[:3, :3]
     error = np.abs(rotation @ rotation.T - np.eye(3)).max()
     if error > RIGID_TOLERANCE or np.linalg.det(rotation) < 0:
         raise ValueError("its 3x4 pose holds no rotation (orthonormal, right-handed)")
+    if np.abs(hand.T_object_hand[:3, 3]).max() > FARTHEST_PALM_M:
+        raise ValueError(f"its palm is more than {FARTHEST_PALM_M:g} m away: metres are needed")
+    if np.abs(hand.dofs_rad).max() > LARGEST_ANGLE_RAD:
+        raise ValueError("its joints turn by more than 2 pi: radians are needed")
     return numbers
 
 
@@ -124,6 +133,8 @@ def read_published(path: str | Path) -> pd.DataFrame:
     missing = [name for name, _, _ in COLUMNS if name not in cells.columns]
     if missing:
         raise InputError(path, missing[0], "this column is missing")
+    if cells.empty:
+        raise InputError(path, "", "holds no grasps, only the names of its columns")
     table = pd.DataFrame(
         {ours: _read_column(path, cells[theirs], read) for theirs, ours, read in COLUMNS}
     )
@@ -139,6 +150,10 @@ def _read_cells(path: Path) -> pd.DataFrame:
     """All cells as text; a byte order mark is dropped."""
     try:
         text = path.read_text(encoding="utf-8-sig")
+        header = next(csv.reader(text.splitlines()[:1]), [])
+        twice = [name for name in header if header.count(name) > 1]
+        if twice:
+            raise InputError(path, twice[0], "this column is there twice")
         return pd.read_csv(io.StringIO(text), dtype=str, keep_default_na=False)
     except (FileNotFoundError, IsADirectoryError) as error:
         raise InputError(path, "", "no such file") from error

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import struct
 from dataclasses import dataclass
 from pathlib import Path
@@ -44,7 +45,8 @@ def read_contact_scan(path: str | Path, metres: float = 1.0) -> ContactScan:
     if not path.is_file():
         raise InputError(path, "", "no such file")
     try:
-        loaded = trimesh.load(path, process=False)
+        content = _unwrapped(path.read_bytes())
+        loaded = trimesh.load(io.BytesIO(content), file_type="ply", process=False)
     except (ValueError, KeyError, IndexError, struct.error) as error:
         raise InputError(path, "", f"cannot be read as PLY: {error}") from error
     red = _red_channel(path, loaded)
@@ -68,4 +70,19 @@ def _red_channel(path: Path, loaded: trimesh.parent.Geometry) -> NDArray[np.floa
         colours = None
     if colours is None or len(colours) != len(loaded.vertices):
         raise InputError(path, "", "has no colour a vertex: the red channel is the contact map")
-    return np.asarray(colours)[:, 0].astype(np.float64)
+    # The file's own numbers: trimesh makes bytes of them, whatever they are.
+    stated = np.ravel(loaded.metadata["_ply_raw"]["vertex"]["data"]["red"])
+    red, most = stated.astype(np.float64), 1 if stated.dtype.kind == "f" else 255
+    if not ((red >= 0) & (red <= most)).all():
+        bad = int(np.argmin((red >= 0) & (red <= most)))
+        raise InputError(path, "red", f"is {stated[bad]} at vertex {bad}, allowed are 0 to {most}")
+    return red * 255 / most
+
+
+def _unwrapped(content: bytes) -> bytes:
+    """A PLY whose numbers in text are read as they are: 300 in a byte would become 44."""
+    head, end, body = content.partition(b"end_header")
+    if b"format ascii" in head:
+        for kind in (b"uchar", b"uint8"):
+            head = head.replace(b"property " + kind + b" ", b"property int ")
+    return head + end + body

@@ -16,28 +16,18 @@ from numpy.typing import NDArray
 
 from grasptypes.errors import InputError
 from grasptypes.objects import solids
+from grasptypes.objects.mesh_limits import (
+    ImportLimits,
+    check_faces,
+    check_file,
+    check_size,
+    check_volume,
+)
 from grasptypes.objects.parts import Material, ObjectModel, Part
 from grasptypes.objects.units import UNITS_M
 
 FORMATS = (".stl", ".obj", ".ply", ".glb")
 GREY = Material((0.62, 0.62, 0.60, 1.0), roughness=0.6)
-
-
-@dataclass(frozen=True)
-class ImportLimits:
-    """What a mesh must meet, and how one with holes is rebuilt.
-
-    Attributes:
-        min_size_m, max_size_m: allowed longest extent after unit and scale.
-        rebuild_cells: cells along the longest extent when a surface is rebuilt.
-        max_open_share: share of the enclosed space whose winding number is far from whole,
-            above which a mesh counts as an open shell.
-    """
-
-    min_size_m: float
-    max_size_m: float
-    rebuild_cells: int
-    max_open_share: float
 
 
 @dataclass(frozen=True)
@@ -68,8 +58,8 @@ def import_model(own: Mapping[str, Any], limits: ImportLimits) -> ImportedModel:
         InputError: one line that says why the mesh cannot be used.
     """
     path, unit, scale = own["file"], own["unit"], own.get("scale", 1.0)
-    meshes = _read(path, UNITS_M[unit])
-    _check_size(path, meshes, unit, scale, limits)
+    meshes = _read(path, UNITS_M[unit], limits)
+    check_size(path, meshes, unit, scale, limits)
     repairs: list[str] = []
     parts = []
     for name, mesh in meshes.items():
@@ -80,18 +70,20 @@ def import_model(own: Mapping[str, Any], limits: ImportLimits) -> ImportedModel:
         whole = _tidy(trimesh.util.concatenate(list(meshes.values())), [])
         repairs = []  # what was mended on the way does not show in the rebuilt surface
         parts = [Part("body", _rebuild(path, whole, limits, repairs), GREY)]
+    check_volume(path, sum(part.solid.volume() for part in parts), meshes, limits)
     # With a given mass any density will do: the inertia is scaled to the mass.
     model = ObjectModel(tuple(parts), own.get("density_kg_m3", 1e3), own.get("shell_thickness_m"))
     return ImportedModel(model, scale, own.get("mass_kg"), tuple(dict.fromkeys(repairs)))
 
 
-def _read(path: str | Path, metres: float) -> dict[str, trimesh.Trimesh]:
+def _read(path: str | Path, metres: float, limits: ImportLimits) -> dict[str, trimesh.Trimesh]:
     """Read the geometries of a mesh file by name, in metres; a single one is the `body`."""
     path = Path(path)
     if path.suffix.lower() not in FORMATS:
         raise InputError(path, "", f"not a mesh format of {', '.join(FORMATS)}")
     if not path.is_file():
         raise InputError(path, "", "no such file")
+    check_file(path, limits)
     try:
         scene = trimesh.load_scene(path, process=False)
         geometries = {
@@ -103,6 +95,7 @@ def _read(path: str | Path, metres: float) -> dict[str, trimesh.Trimesh]:
         raise InputError(path, "", f"cannot be read as a mesh: {error}") from error
     if not geometries:
         raise InputError(path, "", "has no faces: a mesh of triangles is needed")
+    check_faces(path, geometries, limits)
     for mesh in geometries.values():
         if not np.isfinite(mesh.vertices).all():
             bad = int((~np.isfinite(mesh.vertices).all(axis=1)).sum())
@@ -121,30 +114,6 @@ def _placed(scene: trimesh.Scene) -> dict[str, trimesh.Trimesh]:
         placed[str(node)] = scene.geometry[name].copy()
         placed[str(node)].apply_transform(transform)
     return placed
-
-
-def _check_size(
-    path: str | Path,
-    meshes: dict[str, trimesh.Trimesh],
-    unit: str,
-    scale: float,
-    limits: ImportLimits,
-) -> None:
-    bounds = np.array([mesh.bounds for mesh in meshes.values()])
-    size_m = scale * float((bounds[:, 1].max(axis=0) - bounds[:, 0].min(axis=0)).max())
-    if not limits.min_size_m <= size_m <= limits.max_size_m:
-        fits = [
-            other
-            for other, factor in UNITS_M.items()
-            if limits.min_size_m <= size_m / UNITS_M[unit] * factor <= limits.max_size_m
-        ]
-        advice = f"; unit: {' or '.join(fits)} would fit" if fits else ""
-        raise InputError(
-            path,
-            "unit",
-            f"the object would be {size_m:.4g} m long with unit {unit}, allowed are "
-            f"{limits.min_size_m} to {limits.max_size_m} m{advice}",
-        )
 
 
 def _mended(mesh: trimesh.Trimesh, repairs: list[str]) -> Manifold | None:

@@ -22,6 +22,8 @@ def check_own_objects(
     Raises:
         InputError: naming the first wrong key.
     """
+    if not objects["names"] and not objects["own"]:
+        raise InputError(path, "objects.names", "is empty, and so is objects.own: name an object")
     for name, own in objects["own"].items():
         key = f"objects.own.{name}"
         if name in objects["names"]:

@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 import trimesh
 
-from grasptypes.objects.object_files import Surface, write_surface
 from grasptypes.labels.published_data import REFERENCES, lacking_data
 from grasptypes.labels.published_objects import object_distances, own_mesh
 from grasptypes.labels.published_source import PUBLISHED
+from grasptypes.objects.object_files import Surface, write_surface
 
 
 @pytest.fixture

@@ -10,8 +10,12 @@ import trimesh
 
 from grasptypes.errors import InputError
 from grasptypes.objects.mesh_import import ImportLimits, import_model
+from grasptypes.params import read_yaml
 
-LIMITS = ImportLimits(min_size_m=0.01, max_size_m=1.5, rebuild_cells=64, max_open_share=0.2)
+LIMITS = ImportLimits(
+    **read_yaml(Path(__file__).parents[2] / "params.yaml")["objects"]["import"]
+    | {"rebuild_cells": 64}
+)
 
 
 def ball(radius=0.04):

@@ -6,6 +6,7 @@ import pytest
 from hosts import CONTENT
 
 from grasptypes.errors import InputError
+from grasptypes.predictors import weights
 from grasptypes.predictors.weights import WEIGHTS_VARIABLE, chosen_weights, find_weights
 
 

@@ -1,0 +1,82 @@
+"""What a user's mesh must meet."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import trimesh
+
+from grasptypes.errors import InputError
+from grasptypes.objects.units import UNITS_M
+
+Meshes = Mapping[str, trimesh.Trimesh]
+
+
+@dataclass(frozen=True)
+class ImportLimits:
+    """What a mesh must meet, and how one with holes is rebuilt.
+
+    Attributes:
+        min_size_m, max_size_m: allowed longest extent after unit and scale.
+        rebuild_cells: cells along the longest extent when a surface is rebuilt.
+        max_open_share: share of the enclosed space whose winding number is far from whole,
+            above which a mesh counts as an open shell.
+        max_faces: of all its geometries together.
+        max_file_mb: larger files are not even opened.
+        min_volume_share: of the cube of the longest extent; what has less is flat.
+    """
+
+    min_size_m: float
+    max_size_m: float
+    rebuild_cells: int
+    max_open_share: float
+    max_faces: int
+    max_file_mb: float
+    min_volume_share: float
+
+
+def check_file(path: Path, limits: ImportLimits) -> None:
+    """Refuse a file too large to be read; raises InputError."""
+    size_mb = path.stat().st_size / 1e6
+    if size_mb > limits.max_file_mb:
+        message = f"has {size_mb:.0f} MB, allowed are {limits.max_file_mb:g}: simplify the mesh"
+        raise InputError(path, "", message)
+
+
+def check_faces(path: str | Path, meshes: Meshes, limits: ImportLimits) -> None:
+    """Refuse more faces than can be worked on; raises InputError."""
+    faces = sum(len(mesh.faces) for mesh in meshes.values())
+    if faces > limits.max_faces:
+        message = f"has {faces} faces, allowed are {limits.max_faces}: simplify the mesh"
+        raise InputError(path, "", message)
+
+
+def check_size(
+    path: str | Path, meshes: Meshes, unit: str, scale: float, limits: ImportLimits
+) -> None:
+    """Refuse what no hand could hold, and name the unit that would fit; raises InputError."""
+    bounds = np.array([mesh.bounds for mesh in meshes.values()])
+    size_m = scale * float((bounds[:, 1].max(axis=0) - bounds[:, 0].min(axis=0)).max())
+    if not limits.min_size_m <= size_m <= limits.max_size_m:
+        fits = [
+            other
+            for other, factor in UNITS_M.items()
+            if limits.min_size_m <= size_m / UNITS_M[unit] * factor <= limits.max_size_m
+        ]
+        advice = f"; unit: {' or '.join(fits)} would fit" if fits else ""
+        raise InputError(
+            path,
+            "unit",
+            f"the object would be {size_m:.4g} m long with unit {unit}, allowed are "
+            f"{limits.min_size_m} to {limits.max_size_m} m{advice}",
+        )
+
+
+def check_volume(path: str | Path, volume_m3: float, meshes: Meshes, limits: ImportLimits) -> None:
+    """Refuse what closes but is flat; raises InputError."""
+    extent_m = max(float(mesh.extents.max()) for mesh in meshes.values())
+    if volume_m3 < limits.min_volume_share * extent_m**3:
+        raise InputError(path, "", "encloses no volume: it is flat")
