@@ -13,7 +13,7 @@ from grasptypes.objects.mesh_import import ImportLimits, import_model
 from grasptypes.params import read_yaml
 
 LIMITS = ImportLimits(
-    **read_yaml(Path(__file__).parents[2] / "params.yaml")["objects"]["import"]
+    **read_yaml(Path(__file__).parents[3] / "params.yaml")["objects"]["import"]
     | {"rebuild_cells": 64}
 )
 
