@@ -28,10 +28,17 @@ def script_hash(name):
     return code_hash(Path(workflow.basedir) / "workflow" / "scripts" / f"{name}.py")
 
 
-def folder_hash(folder):
-    """Hashes of all files below a folder, which Snakemake cannot compare by content itself."""
-    files = sorted(path for path in Path(folder).rglob("*") if path.is_file())
-    return {str(path.relative_to(folder)): file_hash(path) for path in files}
+def hashes(paths):
+    """Hashes of files that no job makes: Snakemake would see changes of newer ones only."""
+    paths = [paths] if isinstance(paths, str) else paths
+    return {Path(path).name: file_hash(path) for path in paths}
+
+
+def hand_hashes(folder):
+    """Hashes of the hand's URDF and of the shapes it names, which lie below the same folder."""
+    return hashes(
+        sorted(path for end in ("urdf", "obj") for path in Path(folder).rglob(f"*.{end}"))
+    )
 
 
 def object_settings(wildcards):
@@ -41,6 +48,11 @@ def object_settings(wildcards):
         return settings("objects", "names", "own", "import", "comparison")
     block = {key: value for key, value in own.items() if key != "contact_maps"}
     return settings("objects", "names", "scale", "comparison") | {"own": block}
+
+
+def own_mesh(wildcards):
+    """The mesh of an own object; a catalogue object has none."""
+    return config["objects"]["own"].get(wildcards.object, {}).get("file", [])
 
 
 def measured_input(wildcards):
@@ -61,6 +73,12 @@ def reference_meshes():
     """The scans in the folder that the user names, if any."""
     named = os.environ.get("GRASPTYPES_REFERENCE_MESHES")
     return sorted(map(str, Path(named).glob("*.stl"))) if named else []
+
+
+def measuring_hashes():
+    """Hashes of the published poses and of the scans, for those who have them."""
+    published = [] if PUBLISHED_CSV == FETCHED else PUBLISHED_CSV
+    return hashes(published) | hashes(reference_meshes())
 
 
 def without_scan():

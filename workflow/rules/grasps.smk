@@ -20,8 +20,7 @@ rule synthesize_grasps:
     params:
         synthesis=settings("synthesis"),
         physics=settings("physics"),
-        # The file above names the hand's shapes, which lie beside it.
-        hand=folder_hash("assets/barrett_hand"),
+        hand=hand_hashes("assets/barrett_hand"),
         seed=config["seed"],
         code=script_hash("synthesize_grasps"),
     message:

@@ -32,6 +32,7 @@ rule evaluate_labels:
         "../envs/grasptypes.yaml"
     params:
         settings=settings("grasp_types"),
+        data=lambda wildcards: measuring_hashes(),
         scale=config["replay"]["object_scale"],
         code=script_hash("evaluate_labels"),
     message:
@@ -86,6 +87,7 @@ rule compare_distribution:
     conda:
         "../envs/grasptypes.yaml"
     params:
+        published=hashes("assets/published_labels.csv"),
         code=script_hash("compare_distribution"),
     message:
         "Comparing the grasp types with the published counts"

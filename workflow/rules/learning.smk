@@ -22,7 +22,7 @@ rule label_published:
     params:
         objects=OBJECTS,
         tasks=TASKS,
-        published=lambda wildcards: file_hash("assets/published_labels.csv"),
+        published=hashes("assets/published_labels.csv"),
         code=script_hash("label_published"),
     message:
         "Turning the published counts into samples"

@@ -3,7 +3,7 @@
 
 rule prepare_object:
     input:
-        own=lambda wildcards: config["objects"]["own"].get(wildcards.object, {}).get("file", []),
+        own=own_mesh,
     output:
         visual="data/objects/{object}/visual.glb",
         surface="data/objects/{object}/surface.npz",
@@ -18,6 +18,7 @@ rule prepare_object:
         "../envs/grasptypes.yaml"
     params:
         settings=object_settings,
+        own=lambda wildcards: hashes(own_mesh(wildcards)),
         code=script_hash("prepare_object"),
     message:
         "Preparing {wildcards.object}"
@@ -40,6 +41,7 @@ rule map_contacts:
         "../envs/grasptypes.yaml"
     params:
         settings=contact_settings,
+        measured=lambda wildcards: hashes(measured_input(wildcards)),
         seed=config["seed"],
         code=script_hash("map_contacts"),
     message:

@@ -41,6 +41,7 @@ rule replay_grasps:
         "../envs/grasptypes.yaml"
     params:
         settings=config["replay"],
+        data=lambda wildcards: measuring_hashes(),
         code=script_hash("replay_grasps"),
     message:
         "Replaying the published hand poses"
@@ -67,6 +68,7 @@ rule derive_affinities:
     params:
         objects=OBJECTS,
         scale=config["replay"]["object_scale"],
+        data=lambda wildcards: measuring_hashes(),
         settings=config["contact_evidence"],
         code=script_hash("derive_affinities"),
     message:
