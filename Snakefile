@@ -13,7 +13,7 @@ min_version("9.17")
 sys.path.insert(0, str(Path(workflow.basedir) / "src"))
 
 from grasptypes.errors import InputError
-from grasptypes.params import load_params, read_yaml
+from grasptypes.params import read_yaml, validate_params
 from grasptypes.versions.guard import release_dead_lock, use_this_checkout
 from grasptypes.versions.job_records import distrust_unrecorded
 
@@ -23,9 +23,9 @@ if workflow.is_main_process:
     distrust_unrecorded(PersistenceBase)
 
 # Before Snakemake reads them: it lets a duplicate key pass, and runs code where `__use_yte__` stands.
-SCHEMA = Path(workflow.basedir) / "workflow" / "schemas" / "params.schema.yaml"
 try:
-    load_params("params.yaml", SCHEMA)
+    SCHEMA = read_yaml(Path(workflow.basedir) / "workflow" / "schemas" / "params.schema.yaml")
+    validate_params(read_yaml("params.yaml"), SCHEMA)
 except InputError as error:
     sys.exit(f"error: {error}")
 

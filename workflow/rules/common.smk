@@ -7,7 +7,7 @@ from grasptypes.versions.job_records import is_recorded
 from grasptypes.versions.provenance import FileHash, code_hash
 
 try:
-    HOLDS = check_start(config, read_yaml(SCHEMA), workflow.basedir, os.environ)
+    HOLDS = check_start(config, SCHEMA, workflow.basedir, os.environ)
     PUBLISHED_CSV = published_path(os.environ) or []
 except InputError as error:
     sys.exit(f"error: {error}")

@@ -21,32 +21,40 @@ def code_hash(*scripts: str | Path) -> str:
     The syntax trees are hashed without their docstrings: comments, docstrings and layout change
     nothing; a changed statement anywhere below does.
     """
+    digest = hashlib.sha256()
+    for name, path in sorted((_name(path), path) for path in code_files(*scripts)):
+        digest.update(f"{name} {_read(path)[0]}\n".encode())
+    return digest.hexdigest()[:16]
+
+
+def code_files(*scripts: str | Path) -> set[Path]:
+    """The Python files and all of this package that they import, directly or not."""
     todo = {Path(script).resolve() for script in scripts}
     seen: set[Path] = set()
     while todo:
         path = todo.pop()
         seen.add(path)
-        todo |= _local_imports(path) - seen
-    names = sorted((_name(path), path) for path in seen)
-    digest = hashlib.sha256()
-    for name, path in names:
-        digest.update(f"{name}\n{_tree(path)}\n".encode())
-    return digest.hexdigest()[:16]
+        todo |= _read(path)[1] - seen
+    return seen
 
 
 @functools.cache
-def _parse(path: Path) -> ast.Module:
-    return ast.parse(path.read_text(encoding="utf-8"))
-
-
-@functools.cache
-def _tree(path: Path) -> str:
+def _read(path: Path) -> tuple[str, set[Path]]:
+    """A digest of the file's statements, and the files of this package that it imports."""
     tree = ast.parse(path.read_text(encoding="utf-8"))
-    for node in ast.walk(tree):
+    modules: set[str] = set()
+    for node in ast.walk(tree):  # the package uses absolute imports only
+        if isinstance(node, ast.Import):
+            modules |= {alias.name for alias in node.names}
+        elif isinstance(node, ast.ImportFrom) and node.module:
+            modules |= {node.module} | {f"{node.module}.{alias.name}" for alias in node.names}
         body = getattr(node, "body", None)
         if isinstance(body, list) and body and _is_docstring(body[0]):
             body[0].value.value = ""
-    return ast.dump(tree)
+    files = {_module_file(name) for module in modules for name in _with_packages(module)}
+    return hashlib.sha256(ast.dump(tree).encode()).hexdigest(), {
+        file for file in files if file is not None
+    }
 
 
 def _is_docstring(node: ast.AST) -> bool:
@@ -62,31 +70,20 @@ def _name(path: Path) -> str:
     return str(path.relative_to(_SOURCE)) if path.is_relative_to(_SOURCE) else path.name
 
 
+def _with_packages(module: str) -> list[str]:
+    """The module and the packages it lies in, which its import runs; nothing of other packages."""
+    parts = module.split(".")
+    depths = range(1, len(parts) + 1) if parts[0] == _PACKAGE else ()
+    return [".".join(parts[:depth]) for depth in depths]
+
+
+@functools.cache
 def _module_file(module: str) -> Path | None:
     path = _SOURCE.joinpath(*module.split("."))
     for candidate in (path.with_suffix(".py"), path / "__init__.py"):
         if candidate.is_file():
             return candidate
     return None
-
-
-@functools.cache
-def _local_imports(path: Path) -> set[Path]:
-    """Files of this package that ``path`` imports; the package uses absolute imports only."""
-    modules: set[str] = set()
-    for node in ast.walk(_parse(path)):
-        if isinstance(node, ast.Import):
-            modules |= {alias.name for alias in node.names}
-        elif isinstance(node, ast.ImportFrom) and node.module:
-            modules |= {node.module} | {f"{node.module}.{alias.name}" for alias in node.names}
-    parts = [module.split(".") for module in modules]
-    local = {
-        ".".join(part[:depth])  # importing a module runs the packages it lies in
-        for part in parts
-        if part[0] == _PACKAGE
-        for depth in range(1, len(part) + 1)
-    }
-    return {file for module in local if (file := _module_file(module)) is not None}
 
 
 class FileHash:
