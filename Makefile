@@ -12,7 +12,7 @@ export PATH := $(BIN):$(PATH)
 export DVC_NO_ANALYTICS := 1
 export MLFLOW_DISABLE_TELEMETRY := true
 
-.PHONY: help setup table1 demo test lint format doctor publish ui report clean lock
+.PHONY: help setup table1 demo test bad-input lint format doctor publish ui report clean lock
 
 help: ## list the targets
 	@awk -F ':.*## ' '/^[a-z0-9-]+:.*## / {printf "  make %-12s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -32,6 +32,9 @@ demo: setup ## the whole pipeline on 2 objects, in build/demo
 
 test: setup ## the default tests
 	pytest -n $(JOBS)
+
+bad-input: setup ## try every mistake a user can make and write docs/bad_input.md
+	python -W ignore tests/bad_input/table.py
 
 lint: setup ## style, types and workflow checks
 	ruff check . && ruff format --check . && mypy && snakefmt --check Snakefile workflow

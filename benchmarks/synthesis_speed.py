@@ -19,7 +19,7 @@ import numpy as np
 import pybullet
 import yaml
 
-from grasptypes.contact_maps.contact_map import read_contact_map
+from grasptypes.contact_maps.contact_map_files import read_contact_map
 from grasptypes.hand import kinematics
 from grasptypes.objects.distance_grid import DistanceGrid
 from grasptypes.objects.object_files import read_properties

@@ -13,6 +13,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from grasptypes.errors import InputError
+
 # The earliest time a ZIP archive can hold: archives must not tell when they were written.
 ZIP_EPOCH = (1980, 1, 1, 0, 0, 0)
 
@@ -59,6 +61,13 @@ def write_npz(path: str | Path, arrays: Mapping[str, ArrayLike]) -> None:
 
 
 def read_npz(path: str | Path) -> dict[str, np.ndarray]:
-    """All arrays of an ``.npz``; pickled content is refused by NumPy with ``ValueError``."""
-    with np.load(path, allow_pickle=False) as archive:
-        return {name: archive[name] for name in archive.files}
+    """All arrays of an ``.npz``; pickled content is never read.
+
+    Raises:
+        InputError: not such a file, or a damaged one.
+    """
+    try:
+        with np.load(path, allow_pickle=False) as archive:
+            return {name: archive[name] for name in archive.files}
+    except (OSError, ValueError, EOFError, KeyError, AttributeError, zipfile.BadZipFile) as error:
+        raise InputError(path, "", f"cannot be read as arrays (.npz): {error}") from error

@@ -39,7 +39,7 @@ def check_start(
     check_own_objects(objects, tasks)
     table = params["contact_maps"]["affinities"]
     catalogue = schema["properties"]["objects"]["properties"]["names"]["items"]["enum"]
-    holds = read_affinities(table, {*catalogue, *objects["own"]}, tasks)
+    holds = read_affinities(table, [*catalogue, *objects["own"]], tasks)
     check_every_hold(objects, tasks, holds, table)
     check_published(environment)
     return holds

@@ -35,7 +35,10 @@ def read_table(path: str | Path, schema: pa.DataFrameSchema) -> pd.DataFrame:
         InputError: naming the file and the first column that does not meet the schema.
     """
     path = Path(path)
-    table = pd.read_parquet(path) if path.suffix == ".parquet" else pd.read_csv(path)
+    try:
+        table = pd.read_parquet(path) if path.suffix == ".parquet" else pd.read_csv(path)
+    except (OSError, ValueError, pd.errors.ParserError) as error:
+        raise InputError(path, "", f"cannot be read as a table: {error}") from error
     try:
         return schema.validate(table)
     except pa.errors.SchemaError as error:

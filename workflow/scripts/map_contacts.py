@@ -5,7 +5,8 @@ from pathlib import Path
 from typing import Any
 
 from grasptypes.contact_maps.affinities import check_holds
-from grasptypes.contact_maps.contact_map import map_contacts, sample_surface, write_contact_map
+from grasptypes.contact_maps.contact_map import map_contacts, sample_surface
+from grasptypes.contact_maps.contact_map_files import write_contact_map
 from grasptypes.contact_maps.measured_contacts import map_measured_contacts, read_probability
 from grasptypes.jobs import job
 from grasptypes.objects.object_files import read_properties, read_surface

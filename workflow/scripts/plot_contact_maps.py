@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from grasptypes.contact_maps.contact_map import read_contact_map
+from grasptypes.contact_maps.contact_map_files import read_contact_map
 from grasptypes.contact_maps.contact_pictures import contact_picture, contact_sheet, studio_of
 from grasptypes.files import write_bytes
 from grasptypes.jobs import job

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from grasptypes.contact_maps.contact_map import read_contact_map
+from grasptypes.contact_maps.contact_map_files import read_contact_map
 from grasptypes.jobs import job
 from grasptypes.objects.distance_grid import DistanceGrid
 from grasptypes.objects.object_files import read_properties

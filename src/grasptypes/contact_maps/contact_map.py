@@ -8,8 +8,7 @@ object; the population's map is the mean over as many persons as ContactDB recor
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, fields
-from pathlib import Path
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -20,7 +19,6 @@ from grasptypes.contact_maps.affinities import STYLE_OF_GRIP, WHOLE, Hold
 from grasptypes.contact_maps.handprint import Hand, Placement, Surface, handprint
 from grasptypes.contact_maps.placement import place_hand
 from grasptypes.errors import InputError
-from grasptypes.files import read_npz, write_npz
 from grasptypes.seeds import rng, seed
 
 # Within about 70 degrees of the closing direction, a surface resists the digit that presses on it.
@@ -203,24 +201,6 @@ def of_sessions(
 
 def _single(values: ArrayLike) -> NDArray[np.float32]:
     return np.asarray(values, dtype=np.float32)
-
-
-def write_contact_map(contact_map: ContactMap, path: str | Path) -> None:
-    """Write an .npz with one array a field."""
-    write_npz(path, {field.name: getattr(contact_map, field.name) for field in fields(ContactMap)})
-
-
-def read_contact_map(path: str | Path) -> ContactMap:
-    """Read what :func:`write_contact_map` wrote.
-
-    Raises:
-        InputError: an array is missing.
-    """
-    arrays = read_npz(path)
-    for field in fields(ContactMap):
-        if field.name not in arrays:
-            raise InputError(path, field.name, "is missing; build the contact map anew")
-    return ContactMap(**{field.name: arrays[field.name] for field in fields(ContactMap)})
 
 
 def opposes(normals: NDArray[np.float64], closing: NDArray[np.float64]) -> bool:

@@ -12,6 +12,7 @@ import trimesh
 from numpy.typing import NDArray
 
 from grasptypes.errors import InputError
+from grasptypes.objects.mesh_limits import check_counts
 
 
 @dataclass(frozen=True)
@@ -49,6 +50,7 @@ def read_contact_scan(path: str | Path, metres: float = 1.0) -> ContactScan:
         loaded = trimesh.load(io.BytesIO(content), file_type="ply", process=False)
     except (ValueError, KeyError, IndexError, struct.error) as error:
         raise InputError(path, "", f"cannot be read as PLY: {error}") from error
+    check_counts(path, loaded)
     red = _red_channel(path, loaded)
     points_m = np.asarray(loaded.vertices, dtype=np.float64) * metres
     if not np.isfinite(points_m).all():

@@ -18,6 +18,7 @@ from grasptypes.errors import InputError
 from grasptypes.objects import solids
 from grasptypes.objects.mesh_limits import (
     ImportLimits,
+    check_counts,
     check_faces,
     check_file,
     check_size,
@@ -97,6 +98,7 @@ def _read(path: str | Path, metres: float, limits: ImportLimits) -> dict[str, tr
         raise InputError(path, "", "has no faces: a mesh of triangles is needed")
     check_faces(path, geometries, limits)
     for mesh in geometries.values():
+        check_counts(path, mesh)
         if not np.isfinite(mesh.vertices).all():
             bad = int((~np.isfinite(mesh.vertices).all(axis=1)).sum())
             raise InputError(path, "", f"{bad} vertices are not finite numbers (NaN)")

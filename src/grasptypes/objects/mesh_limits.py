@@ -39,11 +39,33 @@ class ImportLimits:
 
 
 def check_file(path: Path, limits: ImportLimits) -> None:
-    """Refuse a file too large to be read; raises InputError."""
+    """Refuse a file that is too large to be read, or half an STL; raises InputError."""
     size_mb = path.stat().st_size / 1e6
     if size_mb > limits.max_file_mb:
         message = f"has {size_mb:.0f} MB, allowed are {limits.max_file_mb:g}: simplify the mesh"
         raise InputError(path, "", message)
+    if path.suffix.lower() == ".stl":
+        _check_stl(path)
+
+
+def check_counts(path: Path, loaded: trimesh.parent.Geometry) -> None:
+    """Refuse a PLY that holds less than its header states; raises InputError."""
+    stated = loaded.metadata.get("_ply_raw", {})
+    for name, held in (("vertex", loaded.vertices), ("face", getattr(loaded, "faces", ()))):
+        count = stated.get(name, {}).get("length", 0)
+        if count > len(held):
+            raise InputError(path, name, f"{count} are stated, {len(held)} there: it is cut short")
+
+
+def _check_stl(path: Path) -> None:
+    """A whole STL has the length that its count of faces asks for, or ends in text as it should."""
+    with path.open("rb") as file:
+        head = file.read(84)
+        file.seek(max(path.stat().st_size - 1000, 0))
+        tail = file.read()
+    faces = int.from_bytes(head[80:], "little")
+    if path.stat().st_size != 84 + 50 * faces and b"endsolid" not in tail:
+        raise InputError(path, "", "is no whole STL: it is cut short, or another kind of file")
 
 
 def check_faces(path: str | Path, meshes: Meshes, limits: ImportLimits) -> None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, fields
 from pathlib import Path
 from typing import Any
 
@@ -88,8 +88,15 @@ def write_properties(path: str | Path, properties: Properties) -> None:
 
 
 def read_properties(path: str | Path) -> dict[str, Any]:
-    """Read the properties by name; see `Properties`."""
-    return json.loads(Path(path).read_text(encoding="utf-8"))
+    """Read the properties by name; see `Properties`. Raises InputError if it is no such file."""
+    try:
+        properties = json.loads(Path(path).read_text(encoding="utf-8"))
+    except (OSError, ValueError) as error:
+        raise InputError(path, "", f"cannot be read as JSON: {error}") from error
+    missing = {field.name for field in fields(Properties)} - set(properties)
+    if missing:
+        raise InputError(path, ", ".join(sorted(missing)), "missing from the properties")
+    return properties
 
 
 def write_collision(

@@ -91,7 +91,7 @@ def load_backbone(weights: Weights, input_px: int) -> Backbone:
     """The backbone with its weights, in evaluation mode; the weights are read as tensors only.
 
     Raises:
-        InputError: the file is damaged, holds anything but tensors, or fits another network.
+        InputError: the file is damaged, holds anything but finite tensors, or fits another network.
     """
     try:
         state = torch.load(weights.path, map_location="cpu", weights_only=True)
@@ -100,6 +100,9 @@ def load_backbone(weights: Weights, input_px: int) -> Backbone:
         raise InputError(weights.path, "", f"not a file of tensors: {reason}") from error
     if not isinstance(state, Mapping) or not all(torch.is_tensor(v) for v in state.values()):
         raise InputError(weights.path, "", "not a state dict (a mapping of names to tensors)")
+    endless = [name for name, tensor in state.items() if not torch.isfinite(tensor).all()]
+    if endless:
+        raise InputError(weights.path, str(endless[0]), "holds numbers that are not finite")
     backbone = untrained_backbone(weights.backbone, input_px, state, str(weights.path))
     return backbone.eval()
 

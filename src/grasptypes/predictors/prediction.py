@@ -14,6 +14,8 @@ from grasptypes.predictors.predictor import VARIANTS
 from grasptypes.predictors.predictor_files import Card, Predictor, load_predictor, read_card
 from grasptypes.predictors.weights import find_weights
 
+# What a model may have been trained on; its folder below models/.
+LABELS = ("simulated", "published")
 MODEL_OF_ROW = {variant.row: name for name, variant in VARIANTS.items()}
 
 
@@ -45,6 +47,8 @@ def predictor_paths(root: str | Path, labels: str, model: str) -> tuple[Path, Pa
     if name not in VARIANTS:
         allowed = ", ".join(f"{row} ({name})" for row, name in MODEL_OF_ROW.items())
         raise InputError("--model", model, f"unknown; allowed: {allowed}")
+    if labels not in LABELS:
+        raise InputError("--labels", labels, f"unknown; allowed: {', '.join(LABELS)}")
     folder = Path("models", labels, name)
     paths = tuple(Path(root) / folder / f"predictor.{end}" for end in ("safetensors", "json"))
     for path in paths:

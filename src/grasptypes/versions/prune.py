@@ -9,10 +9,12 @@ this, a removed object's files would travel with the data for ever.
 from __future__ import annotations
 
 import logging
+import sys
 from collections.abc import Collection
 from pathlib import Path
 
-from grasptypes.params import read_yaml
+from grasptypes.errors import InputError
+from grasptypes.params import load_params
 from grasptypes.versions.job_records import RECORDS, recorded_result
 
 OBJECT_FOLDERS = (
@@ -78,7 +80,11 @@ def _remove_empty_folders(folder: Path, root: Path) -> None:
 def main() -> None:
     """Prune the current folder and say what went."""
     logging.basicConfig(level=logging.INFO, format="%(message)s")
-    params = read_yaml("params.yaml")
+    try:
+        # Checked whole: a typing error must not pass for a removed object.
+        params = load_params("params.yaml", "workflow/schemas/params.schema.yaml")
+    except InputError as error:
+        sys.exit(f"error: {error}")
     objects = [*params["objects"]["names"], *params["objects"]["own"]]
     for path in prune(".", objects, list(params["tasks"])):
         logger.info("removed %s, which is no longer in params.yaml", path)

@@ -8,13 +8,8 @@ import pytest
 import trimesh
 
 from grasptypes.contact_maps.affinities import Hold
-from grasptypes.contact_maps.contact_map import (
-    draw_session,
-    map_contacts,
-    read_contact_map,
-    sample_surface,
-    write_contact_map,
-)
+from grasptypes.contact_maps.contact_map import draw_session, map_contacts, sample_surface
+from grasptypes.contact_maps.contact_map_files import read_contact_map, write_contact_map
 from grasptypes.errors import InputError
 from grasptypes.params import read_yaml
 

@@ -7,12 +7,8 @@ import numpy as np
 import pytest
 import trimesh
 
-from grasptypes.contact_maps.contact_map import (
-    ContactMap,
-    read_contact_map,
-    sample_surface,
-    write_contact_map,
-)
+from grasptypes.contact_maps.contact_map import ContactMap, sample_surface
+from grasptypes.contact_maps.contact_map_files import read_contact_map, write_contact_map
 from grasptypes.contact_maps.measured_contacts import (
     map_measured_contacts,
     read_probability,

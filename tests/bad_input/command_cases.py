@@ -1,0 +1,108 @@
+"""Mistakes in what is asked of the commands, and in the models and exchange files they read."""
+
+from __future__ import annotations
+
+import pickle
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+from case import ROOT, Case, Content, library
+from picture_cases import WHOLE, command
+from weights_cases import Code
+
+from grasptypes.exchange.dexgraspbench import read_grasp
+from grasptypes.exchange.graspit_world import read_world
+from grasptypes.exchange.multigrippergrasp import read_grasps
+from grasptypes.runs import publishing
+from grasptypes.versions import checkout, prune
+
+SCHEMA = "workflow/schemas/params.schema.yaml"
+FOLDER = {name: (ROOT / name).read_bytes() for name in ("params.yaml", SCHEMA)}
+ASK = ("predict", "--image", "cup.png", "--task", "use")
+MODEL = "models/simulated/task_vector"
+
+
+def asked(what: str, arguments: tuple[str, ...], *names: str, **models: Content) -> Case:
+    """A call of `grasptypes predict` with a good picture."""
+    files = FOLDER | {"cup.png": WHOLE} | {f"{MODEL}/predictor.{k}": v for k, v in models.items()}
+    return Case("command", what, files, command(*arguments), names)
+
+
+def module(main: Callable[[], None], *arguments: str) -> Callable[[], None]:
+    """`python -m ...`."""
+
+    def call() -> None:
+        before, sys.argv = sys.argv, ["python -m", *arguments]
+        try:
+            main()
+        finally:
+            sys.argv = before
+
+    return call
+
+
+def exchanged(what: str, name: str, content: Content, read: Callable, *names: str) -> Case:
+    """A file of another program."""
+    return Case("exchange file", what, {name: content}, library(read, name), (name, *names))
+
+
+def with_code(path: Path) -> None:
+    """An array file whose pickle holds code."""
+    with path.open("wb") as file:
+        np.lib.format.write_array_header_1_0(
+            file, {"shape": (), "fortran_order": False, "descr": "|O"}
+        )
+        file.write(pickle.dumps(Code()))
+
+
+CASES = [
+    asked("no command", (), "arguments are required: COMMAND"),
+    asked("an unknown command", ("guess",), "invalid choice: 'guess'"),
+    asked("an unknown option", (*ASK, "--colour"), "--colour"),
+    asked("neither picture nor mesh", ("predict", "--task", "use"), "--image --object is required"),
+    asked("an unknown unit", (*ASK, "--unit", "ell"), "--unit", "'ell'"),
+    asked("a picture that is not there", ("predict", "--image", "no.png"), "no.png: no such file"),
+    asked("another folder", (*ASK, "--folder", "no"), "no/params.yaml", "--folder"),
+    asked("a drawing that is no PNG", (*ASK, "--picture", "cup.jpg"), "cup.jpg", ".png"),
+    asked("an unknown model", (*ASK, "--model", "e"), "--model: e", "task_vector"),
+    asked("unknown labels", (*ASK, "--labels", "../.."), "--labels: ../..", "simulated, published"),
+    asked("a model that is not trained", ASK, f"{MODEL}/predictor.safetensors", "snakemake -j2"),
+    asked(
+        "a damaged card", ASK, "predictor.json", "not a predictor's card", safetensors=b"", json="{"
+    ),
+    Case(
+        "command",
+        "changes that are no YAML",
+        {"small.yaml": "seed: [1\n"},
+        module(checkout.main, str(ROOT), "copy", "--params", "small.yaml"),
+        ("small.yaml", "line 2"),
+    ),
+    Case(
+        "command",
+        "pruning after damaged parameters",
+        {"params.yaml": "seed: [1\n"},
+        module(prune.main),
+        ("params.yaml", "line 2"),
+    ),
+    Case(
+        "command",
+        "publishing before anything is trained",
+        FOLDER,
+        module(publishing.main),
+        ("models", "no finished predictor"),
+    ),
+    exchanged("no XML", "world.xml", "<world>", read_world, "no GraspIt! world"),
+    exchanged("a world without a hand", "world.xml", "<world/>", read_world, "one Barrett robot"),
+    exchanged("no JSON", "grasps.json", "{", read_grasps, "is no JSON file"),
+    exchanged(
+        "another gripper",
+        "grasps.json",
+        '{"gripper": "panda", "object_id": "mug", "pose": [], "dofs": []}',
+        read_grasps,
+        "gripper",
+    ),
+    exchanged("a pickle with code", "grasp.npy", with_code, read_grasp, "no array"),
+    exchanged("a pickle alone", "grasp.npy", pickle.dumps(Code()), read_grasp, "no grasp"),
+]

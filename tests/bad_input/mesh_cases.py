@@ -1,0 +1,112 @@
+"""Mistakes in a user's own mesh."""
+
+from __future__ import annotations
+
+import struct
+from collections.abc import Iterable
+from pathlib import Path
+
+import numpy as np
+import trimesh
+from case import PARAMS, Case, Content, script
+
+BOX = trimesh.creation.box((0.05, 0.05, 0.05))
+VERTICES, FACES = BOX.vertices.tolist(), (BOX.faces + 1).tolist()
+TEXT_STL = BOX.export(file_type="stl_ascii").encode()
+TEXT_PLY = BOX.export(file_type="ply", encoding="ascii")
+STL, PLY, GLB = (BOX.export(file_type=kind) for kind in ("stl", "ply", "glb"))
+
+
+def mesh(what: str, name: str, content: Content, *names: str, unit: str = "m") -> Case:
+    """A mesh that `objects.own.thing` names."""
+    own = {"file": name, "unit": unit, "density_kg_m3": 1000.0}
+    objects = PARAMS["objects"]
+    settings = {
+        "resolution": objects["resolution"],
+        "import": objects["import"] | {"rebuild_cells": 32},
+        "own": own,
+    }
+    job = script("prepare_object", "prepare_object", "thing", settings, Path("thing"))
+    return Case("mesh", what, {name: content}, job, (name, *names))
+
+
+def obj(vertices: Iterable[Iterable[object]], faces: Iterable[Iterable[object]]) -> str:
+    """A Wavefront OBJ."""
+    rows = [("v", *vertex) for vertex in vertices] + [("f", *face) for face in faces]
+    return "\n".join(" ".join(map(str, row)) for row in rows) + "\n"
+
+
+def first(x: object) -> list[list[object]]:
+    """The box's vertices with another first coordinate."""
+    return [[x, 0, 0], *VERTICES[1:]]
+
+
+def stl_with(number: float) -> bytes:
+    """The box as STL with another first coordinate."""
+    return STL[:96] + struct.pack("<f", number) + STL[100:]
+
+
+def huge_stl(path: Path) -> None:
+    """A file of the size and header of ten million faces, which takes no room on the disk."""
+    path.write_bytes(bytes(80) + struct.pack("<I", 10_000_000))
+    with path.open("r+b") as file:
+        file.truncate(84 + 50 * 10_000_000)
+
+
+def fine_ply(path: Path) -> None:
+    """A square of more faces than are allowed, in a file that is small enough."""
+    side = int((PARAMS["objects"]["import"]["max_faces"] / 2) ** 0.5) + 2
+    corner = (np.arange((side - 1) ** 2) // (side - 1)) * side + np.arange((side - 1) ** 2) % (
+        side - 1
+    )
+    triangles = np.concatenate(
+        [corner[:, None] + [0, 1, side], corner[:, None] + [1, side + 1, side]]
+    )
+    points = np.indices((side, side)).reshape(2, -1).T * 0.1 / side
+    head = (
+        f"ply\nformat binary_little_endian 1.0\nelement vertex {side**2}\n"
+        "property float x\nproperty float y\nproperty float z\n"
+        f"element face {len(triangles)}\nproperty list uchar int vertex_indices\nend_header\n"
+    )
+    rows = np.zeros(len(triangles), dtype=[("n", "u1"), ("corners", "<i4", 3)])
+    rows["n"], rows["corners"] = 3, triangles
+    flat = np.column_stack([points, np.zeros(len(points))]).astype("<f4")
+    path.write_bytes(head.encode() + flat.tobytes() + rows.tobytes())
+
+
+CASES = [
+    mesh("empty", "cup.stl", b"", "no whole STL"),
+    mesh("text named .stl", "cup.stl", "a cup\n", "no whole STL"),
+    mesh("a truncated binary STL", "cup.stl", STL[:300], "no whole STL"),
+    mesh("a truncated STL in text", "cup.stl", TEXT_STL[:-300], "no whole STL"),
+    mesh("a truncated PLY in text", "cup.ply", TEXT_PLY[:-30], "face", "cut short"),
+    mesh("a truncated PLY", "cup.ply", PLY[:-50], "cannot be read as a mesh"),
+    mesh("a truncated GLB", "cup.glb", GLB[:-200], "cannot be read as a mesh"),
+    mesh("noise named .glb", "cup.glb", np.random.default_rng(0).bytes(500), "cannot be read"),
+    mesh(
+        "a PLY that promises billions",
+        "cup.ply",
+        PLY.replace(b"vertex 8", b"vertex 3000000000"),
+        "cannot be read",
+    ),
+    mesh("NaN in text", "cup.obj", obj(first("nan"), FACES), "NaN"),
+    mesh("NaN in a binary file", "cup.stl", stl_with(float("nan")), "NaN"),
+    mesh("infinity", "cup.obj", obj(first("inf"), FACES), "not finite"),
+    mesh("words for numbers", "cup.obj", obj(first("one"), FACES), "cannot be read as a mesh"),
+    mesh(
+        "a face of a vertex that is not there",
+        "cup.obj",
+        obj(VERTICES, [*FACES, (1, 2, 99)]),
+        "cannot be read",
+    ),
+    mesh("one face", "cup.obj", obj(VERTICES, FACES[:1]), "open shell without volume"),
+    mesh("points without faces", "cup.obj", obj(VERTICES, []), "no faces"),
+    mesh("flat", "cup.obj", obj([(x, y, 0) for x, y, _ in VERTICES], FACES), "no volume"),
+    mesh("all vertices in one place", "cup.obj", obj([(0, 0, 0)] * 8, FACES), "unit"),
+    mesh("half a box", "cup.obj", obj(VERTICES, FACES[:6]), "open shell without volume"),
+    mesh("a wrong unit", "cup.stl", STL, "unit", "5e-05 m", "m would fit", unit="mm"),
+    mesh("ten million faces", "cup.stl", huge_stl, "500 MB", "allowed are 250"),
+    mesh("more faces than allowed", "cup.ply", fine_ply, "faces, allowed are 1000000"),
+    mesh("a format that is no mesh", "cup.step", "ISO-10303-21;\n", ".stl, .obj, .ply, .glb"),
+    mesh("a folder named .stl", "cup.stl", Path.mkdir, "no such file"),
+]

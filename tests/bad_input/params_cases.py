@@ -1,0 +1,78 @@
+"""Mistakes in params.yaml and in the variables a run reads."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import yaml
+from case import PARAMS, ROOT, Case, start
+
+from grasptypes.params import merge
+
+AFFINITIES = {"assets/affinities.csv": (ROOT / "assets/affinities.csv").read_bytes()}
+BOX = {"file": "box.stl", "unit": "mm", "mass_kg": 0.1}
+
+
+def text(what: str, content: str | bytes, *names: str) -> Case:
+    """A file that is no mapping of parameters."""
+    return Case("params.yaml", what, {"params.yaml": content}, start, ("params.yaml", *names))
+
+
+def change(what: str, changes: dict[str, Any], *names: str, **files: bytes) -> Case:
+    """The project's parameters with one thing changed."""
+    content = yaml.safe_dump(merge(PARAMS, changes), sort_keys=False)
+    written = {"params.yaml": content, **AFFINITIES} | {f"{k}.stl": v for k, v in files.items()}
+    return Case("params.yaml", what, written, start, ("params.yaml", *names))
+
+
+def environment(what: str, name: str, value: str, *names: str) -> Case:
+    """A variable that leads nowhere."""
+    files = {"params.yaml": (ROOT / "params.yaml").read_bytes(), **AFFINITIES}
+    return Case("environment", what, files, start, (name, *names), {name: value})
+
+
+CASES = [
+    text("empty", "", "must hold a mapping"),
+    text("a list", "- seed\n", "must hold a mapping"),
+    text("not YAML", "seed: [1\n", "line 2", "not valid YAML"),
+    text("a tab for indentation", "tasks:\n\tuse: 1\n", "line 2"),
+    text("two documents", "seed: 1\n---\nseed: 2\n", "line 2"),
+    text("not text", b"\xff\xfe\x00\x01", "UTF-8"),
+    text("nested too deeply", "[" * 5000, "nested too deeply"),
+    text("a key that is there twice", "seed: 1\nseed: 2\n", "line 2", "'seed' is there twice"),
+    text("a key that is no text", "1: 2\n", "line 1", "a key must be text"),
+    text("a key that is a list", "? [a, b]\n: 1\n", "line 1", "a key must be text"),
+    text(
+        "a tag that runs a command", "seed: !!python/object/apply:os.system [touch ran]\n", "line 1"
+    ),
+    text("a tag that makes an object", "seed: !!python/object:os.PathLike {}\n", "line 1"),
+    text("a tag its value does not fit", "seed: !!int many\n", "line 1", "'many'"),
+    text("a date that does not exist", "seed: 2020-99-99\n", "line 1", "2020-99-99"),
+    text("Python for Snakemake to run", "__use_yte__: true\n?open('ran', 'w'): 1\n", "__use_yte__"),
+    change("an unknown section", {"sed": 1}, "'sed' was unexpected", "allowed: "),
+    change("an unknown key", {"tasks": {"use": {"color_shift": 1}}}, "tasks.use", "colour_shift"),
+    text("a missing section", "seed: 1\n", "'tasks' is a required property"),
+    change("a wrong type", {"seed": "one"}, "seed", "whole number"),
+    change("a yes for a number", {"seed": True}, "seed", "whole number"),
+    change("below the range", {"objects": {"scale": 0}}, "objects.scale", "0"),
+    change("above the range", {"folds": {"count": 1000}}, "folds.count", "maximum of 100"),
+    change("NaN", {"objects": {"scale": float("nan")}}, "objects.scale", "not a finite number"),
+    change("infinity", {"physics": {"test": {"friction": float("inf")}}}, "physics.test.friction"),
+    change("an unknown object", {"objects": {"names": ["mug", "jug"]}}, "objects.names.1", "'jug'"),
+    change("an object named twice", {"objects": {"names": ["mug", "mug"]}}, "objects.names"),
+    change("no object at all", {"objects": {"names": []}}, "objects.names", "name an object"),
+    change("a name for the shell", {"tasks": {"a; ls": {"colour_shift": 1}}}, "tasks", "a; ls"),
+    change("an unknown unit", {"objects": {"own": {"box": BOX | {"unit": "ell"}}}}, "own.box.unit"),
+    change(
+        "mass and density", {"objects": {"own": {"box": BOX | {"density_kg_m3": 1}}}}, "own.box"
+    ),
+    change("a mesh that is not there", {"objects": {"own": {"box": BOX}}}, "box.stl"),
+    change("an own name of the catalogue", {"objects": {"own": {"mug": BOX}}}, "objects.own.mug"),
+    environment("a table that is not there", "GRASPTYPES_PUBLISHED_CSV", "no.csv", "'no.csv'"),
+    environment(
+        "a URL without checksum",
+        "GRASPTYPES_PUBLISHED_CSV",
+        "https://example.org/t.csv",
+        "#sha256=<64 hex digits>",
+    ),
+]

@@ -1,0 +1,60 @@
+"""Mistakes in pictures given to `grasptypes predict`."""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+from case import ROOT, Case, Content
+from PIL import Image
+
+from grasptypes.__main__ import main
+
+NOISE = np.random.default_rng(0).integers(0, 256, (64, 64, 3), dtype=np.uint8)
+
+
+def command(*arguments: str) -> Callable[[], None]:
+    """`grasptypes ...` in the folder of the files."""
+    return lambda: main(arguments)
+
+
+def encoded(picture: Image.Image, kind: str = "png", **options: Any) -> bytes:
+    """The bytes of a picture file."""
+    buffer = io.BytesIO()
+    picture.save(buffer, kind, **options)
+    return buffer.getvalue()
+
+
+def picture(what: str, content: Content, *names: str, name: str = "cup.png") -> Case:
+    """A picture that --image names."""
+    files = {
+        name: content,
+        "params.yaml": (ROOT / "params.yaml").read_bytes(),
+        "workflow/schemas/params.schema.yaml": (
+            ROOT / "workflow/schemas/params.schema.yaml"
+        ).read_bytes(),
+    }
+    call = command("predict", "--image", name, "--task", "use")
+    return Case("picture", what, files, call, (name, *names))
+
+
+WHOLE = encoded(Image.fromarray(NOISE))
+CASES = [
+    picture("empty", b"", "not a picture"),
+    picture("text named .png", "a cup\n", "not a picture"),
+    picture("truncated", WHOLE[: len(WHOLE) // 2], "cannot be read as a picture"),
+    picture("damaged", WHOLE[:60] + bytes(20) + WHOLE[80:], "cannot be read as a picture"),
+    picture("too small", encoded(Image.new("RGB", (1, 1))), "1 x 1 pixels", "needs 32"),
+    picture("too large", encoded(Image.new("1", (20_000, 10_000))), "110 million pixels at most"),
+    picture("an alpha channel", encoded(Image.fromarray(NOISE).convert("RGBA")), "alpha channel"),
+    picture(
+        "16 bits a channel",
+        encoded(Image.fromarray(NOISE[..., 0].astype(np.uint16) * 256)),
+        "8 bits",
+    ),
+    picture(
+        "a format that runs a program", "%!PS-Adobe-3.0 EPSF-3.0\n", "not a picture", name="cup.eps"
+    ),
+]

@@ -1,0 +1,97 @@
+"""Mistakes in tables: the authors' CSV and the affinity table."""
+
+from __future__ import annotations
+
+import hashlib
+from pathlib import Path
+
+import pandas as pd
+from case import ROOT, Case, library, script, start
+
+from grasptypes.contact_maps.affinities import COLUMNS
+from grasptypes.labels.published_source import PUBLISHED, fetch_published
+
+POSE = "0,1,0,0,0.1,0,1,0,0.2,0,0,1,0.3,0.5,1.0,1.1,1.2"
+ROW = {
+    "Index": "0", "Object": "mug", "Intent": "use", "Session": "1", "GraspType": "Precision",
+    "GraspTypeIndex": "6", "Rank": "1", "Error": "-0.2", "PoseIndex": "17",
+    "HandConfiguration": POSE, "Image": "",
+}  # fmt: skip
+HOLD = "mug,use,handle,wrap,+x,z,0.3,0.7,2,to drink"
+PARAMS = (ROOT / "params.yaml").read_bytes()
+
+
+def csv(*changes: dict[str, str], drop: str = "", separator: str = ",") -> str:
+    """The authors' table with a row a change."""
+    rows = [ROW | {"Session": str(number)} | change for number, change in enumerate(changes, 1)]
+    table = pd.DataFrame(rows).drop(columns=[drop] if drop else [])
+    return table.to_csv(index=False, sep=separator)
+
+
+def published(what: str, content: str | bytes, *names: str) -> Case:
+    """A table that GRASPTYPES_PUBLISHED_CSV names."""
+    replay = script("replay_grasps", "replay_grasps", "grasps.csv", ".", None, Path("replay.csv"))
+    return Case("published CSV", what, {"grasps.csv": content}, replay, ("grasps.csv", *names))
+
+
+def cell(what: str, column: str, content: str, *names: str) -> Case:
+    """One wrong cell in the second row."""
+    return published(what, csv({}, {column: content}), f"line 3, {column}", *names)
+
+
+def affinities(what: str, content: str | bytes, *names: str) -> Case:
+    """The table that contact_maps.affinities names."""
+    table = "assets/affinities.csv"
+    files: dict[str, str | bytes] = {"params.yaml": PARAMS, table: content}
+    return Case("affinity table", what, files, start, (table, *names))
+
+
+def holds(*rows: str) -> str:
+    """An affinity table."""
+    return "\n".join([",".join(COLUMNS), *rows]) + "\n"
+
+
+def fetched(what: str, address: str, *names: str) -> Case:
+    """A table that GRASPTYPES_PUBLISHED_CSV names by URL."""
+    call = library(fetch_published, {PUBLISHED: address}, "published/grasps.csv", 0.5)
+    return Case("published CSV", what, {}, call, (PUBLISHED, *names))
+
+
+SHA256 = hashlib.sha256(b"").hexdigest()
+CASES = [
+    published("empty", "", "not a CSV table"),
+    published("the names of the columns only", csv({}).splitlines()[0], "holds no grasps"),
+    published("UTF-16", csv({}).encode("utf-16"), "not UTF-8"),
+    published("semicolons between the cells", csv({}, separator=";"), "Index", "missing"),
+    published("a missing column", csv({}, drop="Rank"), "Rank", "missing"),
+    published(
+        "a missing column after a byte order mark", csv({}, drop="Rank").encode("utf-8-sig"), "Rank"
+    ),
+    published("a column that is there twice", csv({}).replace("Image", "Rank"), "Rank", "twice"),
+    published("a row that is there twice", csv({}, {"Session": "1"}), "line 3", "twice"),
+    published("broken off within a row", csv({}, {})[:-10], "not a CSV table"),
+    published("a row that is too short", csv({}) + "1,mug\n", "line 3, Intent"),
+    cell("an unknown grasp type", "GraspType", "Hug", "'Hug'", "Large Wrap"),
+    cell("an unknown task", "Intent", "throw", "handoff, use"),
+    cell("16 numbers", "HandConfiguration", POSE.rsplit(",", 1)[0], "16 numbers instead of 17"),
+    cell("NaN in a pose", "HandConfiguration", POSE.replace("0.3", "nan"), "finite"),
+    cell("a pose that is no rotation", "HandConfiguration", "0,2" + POSE[3:], "no rotation"),
+    cell("millimetres", "HandConfiguration", POSE.replace("0.3", "300"), "metres"),
+    cell("degrees", "HandConfiguration", POSE.replace("1.2", "120"), "radians"),
+    cell("NaN", "Error", "nan", "finite"),
+    cell("session 0", "Session", "0", "from 1 up"),
+    cell("half a session", "Session", "1.5", "whole number"),
+    fetched(
+        "a host that is away", f"http://127.0.0.1:9/t.csv#sha256={SHA256}", "127.0.0.1:9", "path"
+    ),
+    affinities("empty", b"", "line 1", "the columns must be"),
+    affinities("not UTF-8", b"\xff\xfe\x00", "not UTF-8"),
+    affinities("other columns", "object,task\nmug,use\n", "line 1", "object, task, part"),
+    affinities("a row too long", holds(HOLD + ",more"), "line 2", "10 cells"),
+    affinities("an unknown object", holds(HOLD.replace("mug", "jug")), "line 2, object", "'jug'"),
+    affinities("an unknown grip", holds(HOLD.replace("wrap", "hug")), "line 2, grip", "'hug'"),
+    affinities("a height of 1.3", holds(HOLD.replace("0.3", "1.3")), "line 2, low", "0 and 1"),
+    affinities("NaN", holds(HOLD.replace(",2,", ",nan,")), "line 2, affinity"),
+    affinities("no reason", holds(HOLD.replace("to drink", "")), "line 2, reason"),
+    affinities("an object without a row", holds(HOLD), "apple and use", "no row"),
+]
