@@ -16,7 +16,7 @@ def checkout(tmp_path: Path) -> Path:
     """A small copy of the package with a script that imports one module, which imports another."""
     package = tmp_path / "src" / "grasptypes"
     (package / "versions").mkdir(parents=True)
-    for name in ("__init__", "versions/__init__", "versions/provenance", "files"):
+    for name in ("__init__", "versions/__init__", "versions/provenance", "errors", "files"):
         shutil.copy(SOURCE / "grasptypes" / f"{name}.py", package / f"{name}.py")
     (package / "used.py").write_text('"""Doc."""\nfrom grasptypes.deeper import two\n')
     (package / "deeper.py").write_text("def two():\n    return 2\n")
