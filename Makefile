@@ -49,13 +49,16 @@ publish: setup ## show finished results in MLflow; adds nothing that is there al
 	python -m grasptypes.runs.publishing
 
 ui: publish ## the MLflow UI on 127.0.0.1, few processes
-	@echo "runs: http://127.0.0.1:$(UI_PORT)/#/experiments/1/runs?workflowType=machine_learning"
+	@echo "runs: http://127.0.0.1:$(UI_PORT)/#/experiments/1/runs?workflowType=machine_learning&viewStateShareKey=results"
 	MLFLOW_SERVER_ENABLE_JOB_EXECUTION=false mlflow ui --backend-store-uri sqlite:///$(CURDIR)/mlflow.db \
 	    --host 127.0.0.1 --port $(UI_PORT) --workers 1
 
+# What needs data from outside, and what the jobs cost, is shown where it is there.
 report: setup ## the results with captions as one HTML page that opens offline: build/report.html
 	@mkdir -p build
-	snakemake --report build/report.html
+	python -m grasptypes.reports.timing
+	snakemake all $$(test -f build/timing.png && echo timing) $$(ls 2>/dev/null reports/replay.csv \
+	    reports/object_shapes.csv reports/figures/label_confusion.png) --report build/report.html
 
 clean: ## remove what can be rebuilt outside the data: logs, demo, caches
 	rm -rf build logs .pytest_cache .ruff_cache .mypy_cache

@@ -33,14 +33,19 @@ except InputError as error:
 configfile: "params.yaml"
 
 
+report: "workflow/report/workflow.rst"
+
+
 include: "workflow/rules/common.smk"
 include: "workflow/rules/objects.smk"
 include: "workflow/rules/grasps.smk"
 include: "workflow/rules/replay.smk"
+include: "workflow/rules/galleries.smk"
 include: "workflow/rules/labels.smk"
 include: "workflow/rules/renders.smk"
 include: "workflow/rules/learning.smk"
 include: "workflow/rules/tables.smk"
+include: "workflow/rules/details.smk"
 
 
 wildcard_constraints:
@@ -63,5 +68,12 @@ rule all:
         rules.compare_distribution.output,
         expand(rules.picture_grasps.output, object=OBJECTS),
         rules.plot_grasps.output,
+        rules.plot_rejected_grasps.output,
+        rules.plot_sessions.output,
+        rules.plot_label_tree.output,
         rules.plot_contact_maps.output,
         rules.plot_renders.output,
+        rules.tabulate_types.output,
+        rules.tabulate_objects.output,
+        rules.plot_folds.output,
+        rules.plot_losses.output,

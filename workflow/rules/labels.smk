@@ -93,3 +93,30 @@ rule compare_distribution:
         "Comparing the grasp types with the published counts"
     script:
         "../scripts/compare_distribution.py"
+
+
+rule plot_label_tree:
+    input:
+        dataset=rules.label_grasps.output.grasps,
+        pictures=expand("data/screenshots/{object}.zip", object=OBJECTS),
+    output:
+        figure=report(
+            "reports/figures/label_tree.png",
+            caption="../report/label_tree.rst",
+            category="Grasp types",
+            labels={"subject": "label tree", "kind": "figure"},
+        ),
+    log:
+        "logs/plot_label_tree.log",
+    benchmark:
+        "logs/benchmarks/plot_label_tree.tsv"
+    conda:
+        "../envs/grasptypes.yaml"
+    params:
+        objects=OBJECTS,
+        thresholds=config["grasp_types"]["thresholds"],
+        code=script_hash("plot_label_tree"),
+    message:
+        "Drawing the tree of grasp types"
+    script:
+        "../scripts/plot_label_tree.py"

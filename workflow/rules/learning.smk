@@ -107,7 +107,7 @@ rule train_predictor:
             "reports/metrics/{labels}/{model}.csv",
             caption="../report/metrics.rst",
             category="Folds",
-            labels={"labels": "{labels}", "model": "{model}"},
+            labels={"subject": "metrics", "labels": "{labels}", "model": "{model}"},
         ),
         curves="reports/loss_curves/{labels}/{model}.csv",
         predictions="models/{labels}/{model}/predictions.parquet",

@@ -40,8 +40,9 @@ rule plot_renders:
     conda:
         "../envs/grasptypes.yaml"
     params:
-        views=config["renders"]["sheet"]["views"],
-        columns=config["renders"]["sheet"]["columns"],
+        objects=OBJECTS,
+        sheet=config["renders"]["sheet"],
+        compression=config["renders"]["png_compression"],
         code=script_hash("plot_renders"),
     message:
         "Laying out the sheet of renders"

@@ -4,13 +4,10 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
 from grasptypes.contact_maps.contact_pictures import studio_of
 from grasptypes.files import write_bytes, zip_bytes
-from grasptypes.hand import configuration
 from grasptypes.jobs import job
-from grasptypes.renders.gallery import grasp_picture
+from grasptypes.renders.gallery import grasp_picture, pose_of
 from grasptypes.renders.renderer import Camera, png_bytes
 from grasptypes.renders.scene import load_parts
 from grasptypes.synthesis.grasps import GRASP_SCHEMA
@@ -36,11 +33,7 @@ def picture_grasps(
     with Camera(studio) as camera:
         for task, path in tables.items():
             for row in read_table(path, GRASP_SCHEMA).itertuples():
-                hand = configuration.unpack(np.asarray(row.hand_configuration, dtype=np.float64))
-                angles_rad = np.asarray(row.joint_angles_rad, dtype=np.float64)
-                picture = grasp_picture(
-                    parts, hand.T_object_hand, angles_rad, camera, params["elevation_rad"]
-                )
+                picture = grasp_picture(parts, *pose_of(row), camera, params["elevation_rad"])
                 file_name = f"{name}_{row.session}_{task}.png"
                 members[file_name] = png_bytes(picture, studio.png_compression)
     write_bytes(target, zip_bytes(members))

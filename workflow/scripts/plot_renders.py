@@ -1,22 +1,34 @@
 """Show some renders of every object on one sheet."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping
+from typing import Any
 
+import numpy as np
+
+from grasptypes.files import write_bytes
 from grasptypes.jobs import job
 from grasptypes.predictors.features import read_pictures
-from grasptypes.reports.result_plots import contact_sheet
+from grasptypes.renders.renderer import png_bytes
+from grasptypes.reports.sheets import Group, Tile, sheet
 
 
-def plot_renders(archives: Sequence[str], target: str, views: int, columns: int) -> None:
-    """Write a sheet of the first `views` pictures of each archive."""
-    contact_sheet({path: read_pictures(path)[:views] for path in archives}, target, columns)
+def plot_renders(
+    archives: Mapping[str, str], target: str, params: Mapping[str, Any], compression: int
+) -> None:
+    """Write a sheet of the first pictures of each object's archive."""
+    tiles = [
+        Tile(np.hstack(list(read_pictures(path)[: params["views"]])), name)
+        for name, path in archives.items()
+    ]
+    whole = sheet([Group("", tiles)], params["columns"], params["tile_px"])
+    write_bytes(target, png_bytes(whole, compression))
 
 
 if __name__ == "__main__":
     with job(snakemake.log):
         plot_renders(
-            snakemake.input.pictures,
+            dict(zip(snakemake.params.objects, snakemake.input.pictures, strict=True)),
             snakemake.output.sheet,
-            snakemake.params.views,
-            snakemake.params.columns,
+            snakemake.params.sheet,
+            snakemake.params.compression,
         )

@@ -10,7 +10,6 @@ import numpy as np
 import trimesh
 from matplotlib import colormaps
 from numpy.typing import ArrayLike, NDArray
-from PIL import Image, ImageDraw
 from scipy.spatial import cKDTree
 
 from grasptypes.contact_maps.contact_map import ContactMap
@@ -57,25 +56,6 @@ def contact_picture(
         scene.set_pose(node, pose)
         sides.append(camera.compose(camera.shoot(scene), points, pose))
     return np.hstack(sides)
-
-
-def contact_sheet(
-    pictures: Mapping[str, NDArray[np.uint8]], columns: int, height_px: int
-) -> NDArray[np.uint8]:
-    """All pictures, each under its name, in rows of `columns`, `height_px` high each."""
-    tiles = []
-    for name, picture in pictures.items():
-        width_px = round(picture.shape[1] * height_px / picture.shape[0])
-        tile = Image.new("RGB", (width_px, height_px + 14), "white")
-        tile.paste(Image.fromarray(picture).resize((width_px, height_px)), (0, 14))
-        ImageDraw.Draw(tile).text((3, 1), name, fill="black")
-        tiles.append(tile)
-    width_px, full_px = tiles[0].size
-    rows = -(-len(tiles) // columns)
-    sheet = Image.new("RGB", (columns * width_px, rows * full_px), "white")
-    for index, tile in enumerate(tiles):
-        sheet.paste(tile, (index % columns * width_px, index // columns * full_px))
-    return np.asarray(sheet)
 
 
 def look_at(points: Array, azimuth_rad: float, elevation_rad: float, studio: Studio) -> Array:

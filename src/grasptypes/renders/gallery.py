@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+from functools import cache
+from typing import Any
+
 import numpy as np
 import pandas as pd
 import trimesh
@@ -9,9 +13,11 @@ from numpy.typing import ArrayLike, NDArray
 
 from grasptypes.contact_maps.contact_pictures import look_at
 from grasptypes.hand import configuration, kinematics
-from grasptypes.hand.visuals import MATERIALS, link_visuals
+from grasptypes.hand.visuals import MATERIALS, Visual, link_visuals
+from grasptypes.renders.gallery_views import best_azimuth, finger_points
 from grasptypes.renders.renderer import Camera
-from grasptypes.renders.scene import Part
+from grasptypes.renders.scene import Part, surface_points
+from grasptypes.seeds import rng
 
 Array = NDArray[np.float64]
 
@@ -20,9 +26,8 @@ METALLIC = {"aluminium": 0.6}
 ROUGHNESS = {"anodised": 0.45, "aluminium": 0.4, "rubber": 0.9}
 # Edges sharper than this stay edges.
 CREASE_RAD = 0.6
-AZIMUTHS = 24
-# What it counts to see a hand from in front, beside seeing it from its side.
-FRONT_MERIT = 0.35
+# Points on an object that stand for its surface: 5 a cell of the largest one, the pan.
+OBJECT_POINTS = 6000
 
 
 def hand_parts(T_object_hand: ArrayLike, joint_angles_rad: ArrayLike) -> list[Part]:
@@ -33,22 +38,34 @@ def hand_parts(T_object_hand: ArrayLike, joint_angles_rad: ArrayLike) -> list[Pa
         joint_angles_rad: (8,) in the order of `kinematics.JOINT_NAMES`.
     """
     poses = np.asarray(T_object_hand) @ kinematics.link_poses(joint_angles_rad)
-    parts = []
-    for pose, link in zip(poses, link_visuals(), strict=True):
-        for visual in link:
-            mesh = trimesh.Trimesh(visual.vertices_m, visual.faces)
-            mesh = trimesh.graph.smooth_shade(mesh, angle=CREASE_RAD).apply_transform(pose)
-            parts.append(
-                Part(
-                    vertices=np.asarray(mesh.vertices),
-                    normals=np.asarray(mesh.vertex_normals),
-                    faces=np.asarray(mesh.faces),
-                    base_colour=np.array(MATERIALS[visual.material][:3]),
-                    metallic=METALLIC.get(visual.material, 0.0),
-                    roughness=ROUGHNESS[visual.material],
-                )
-            )
-    return parts
+    return [
+        replace(
+            part,
+            vertices=part.vertices @ pose[:3, :3].T + pose[:3, 3],
+            normals=part.normals @ pose[:3, :3].T,
+        )
+        for pose, link in zip(poses, _link_parts(), strict=True)
+        for part in link
+    ]
+
+
+@cache
+def _link_parts() -> tuple[tuple[Part, ...], ...]:
+    """The parts of each link in its own frame, shaded smoothly up to their edges."""
+    return tuple(tuple(_part(visual) for visual in link) for link in link_visuals())
+
+
+def _part(visual: Visual) -> Part:
+    mesh = trimesh.Trimesh(visual.vertices_m, visual.faces)
+    mesh = trimesh.graph.smooth_shade(mesh, angle=CREASE_RAD)
+    return Part(
+        vertices=np.asarray(mesh.vertices),
+        normals=np.asarray(mesh.vertex_normals),
+        faces=np.asarray(mesh.faces),
+        base_colour=np.array(MATERIALS[visual.material][:3]),
+        metallic=METALLIC.get(visual.material, 0.0),
+        roughness=ROUGHNESS[visual.material],
+    )
 
 
 def grasp_picture(
@@ -58,33 +75,25 @@ def grasp_picture(
     camera: Camera,
     elevation_rad: float,
 ) -> NDArray[np.uint8]:
-    """A grasp (size, size, 3), seen across the direction in which the fingers close."""
+    """A grasp (size, size, 3), from where object and fingers are seen best."""
     parts = [*thing, *hand_parts(T_object_hand, joint_angles_rad)]
+    outside = surface_points(thing, OBJECT_POINTS, rng("gallery"))
+    hand = finger_points(T_object_hand, joint_angles_rad)
+    azimuth_rad = best_azimuth(outside, *hand, elevation_rad)
     scene, node, _ = camera.scene(parts)
     points = np.concatenate([part.vertices for part in parts])
-    pose = look_at(points, _azimuth(T_object_hand, elevation_rad), elevation_rad, camera.studio)
+    pose = look_at(points, azimuth_rad, elevation_rad, camera.studio)
     scene.set_pose(node, pose)
     return camera.compose(camera.shoot(scene), points, pose)
 
 
-def _azimuth(T_object_hand: Array, elevation_rad: float) -> float:
-    """Direction around the object's z from which fingers, thumb and what they hold are seen best.
-
-    That is from the hand's side, and rather from in front than over its back.
-    """
-    angles = np.linspace(-np.pi, np.pi, AZIMUTHS, endpoint=False)
-    flat = np.cos(elevation_rad)
-    height = np.full(AZIMUTHS, np.sin(elevation_rad))
-    views = np.column_stack([flat * np.cos(angles), flat * np.sin(angles), height])
-    merit = np.abs(views @ T_object_hand[:3, 0]) + FRONT_MERIT * (views @ T_object_hand[:3, 2])
-    return float(angles[merit.argmax()])
-
-
-def best_grasp(grasps: pd.DataFrame) -> tuple[Array, Array] | None:
-    """T_object_hand (4, 4) and angles (8,) of the valid grasp with the lowest energy, if any."""
+def best_grasp(grasps: pd.DataFrame) -> Any | None:
+    """The row of the valid grasp with the lowest energy, if any."""
     valid = grasps[grasps.valid]
-    if valid.empty:
-        return None
-    row = valid.loc[valid.energy.idxmin()]
+    return None if valid.empty else valid.loc[valid.energy.idxmin()]
+
+
+def pose_of(row: Any) -> tuple[Array, Array]:
+    """T_object_hand (4, 4) and joint angles (8,) of a row of grasps or attempts."""
     hand = configuration.unpack(np.asarray(row.hand_configuration, dtype=np.float64))
     return hand.T_object_hand, np.asarray(row.joint_angles_rad, dtype=np.float64)

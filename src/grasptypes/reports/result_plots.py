@@ -2,21 +2,15 @@
 
 from __future__ import annotations
 
-import io
-from collections.abc import Mapping
 from pathlib import Path
 
-import matplotlib
-
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt
 import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from PIL import Image
+from numpy.typing import NDArray
 
-from grasptypes.files import write_bytes
+from grasptypes.labels.label_pictures import save_figure
 from grasptypes.reports.results import constant_rows
 
 MEASURES = {"sim": "angular similarity", "acc": "multilabel accuracy", "prec": "precision"}
@@ -27,6 +21,8 @@ LABELLED = {
     "ignores_task": "(d) ignores task",
 }
 OURS, PAPER, CEILING, CONSTANT = "#2a6f97", "#c9a227", "#6c757d", "#b23a48"
+# End of the axes, and the share of their height that the numbers at the feet of the bars take.
+TOP, FOOT = 1.02, 0.2
 
 
 def plot_table(table: pd.DataFrame, path: str | Path) -> None:
@@ -41,9 +37,8 @@ def plot_table(table: pd.DataFrame, path: str | Path) -> None:
     """
     used = table[table["n_folds"] > 0]
     sources = list(dict.fromkeys(used["labels"]))
-    figure, panels = plt.subplots(
-        len(sources), len(MEASURES), figsize=(10, 3.2 * len(sources)), sharey=True, squeeze=False
-    )
+    figure = Figure(figsize=(10, 3.2 * len(sources)))
+    panels = figure.subplots(len(sources), len(MEASURES), sharey=True, squeeze=False)
     for row, labels in zip(panels, sources, strict=True):
         for axes, (short, title) in zip(row, MEASURES.items(), strict=True):
             _bars(axes, used[used["labels"] == labels], short)
@@ -52,39 +47,19 @@ def plot_table(table: pd.DataFrame, path: str | Path) -> None:
                 _steps(axes, constant, CONSTANT, "best constant answer")
             axes.set_title(title, fontsize=10)
         row[0].set_ylabel(f"{labels} labels")
-    # The panels share their axis: it must reach down to the lowest bar and its spread.
-    lowest = min((used[f"{short}_mean"] - used[f"{short}_sd"]).min() for short in MEASURES)
-    panels[0][0].set_ylim(max(0.0, np.floor(lowest * 10) / 10), 1.02)
+    panels[0][0].set_ylim(_bottom(used), TOP)
     handles, names = panels[0][0].get_legend_handles_labels()
     figure.legend(handles, names, loc="lower center", ncols=3, frameon=False, fontsize=9)
     figure.tight_layout(rect=(0, 0.08 / len(sources), 1, 1))
-    save(figure, path)
+    save_figure(figure, path)
 
 
-def contact_sheet(pictures: Mapping[str, np.ndarray], path: str | Path, columns: int) -> None:
-    """Some pictures of every object, one object after the other.
-
-    Args:
-        pictures: object to (N, H, W, 3) uint8; the same N for all.
-        columns: objects side by side.
-    """
-    strips = [np.hstack(list(views)) for views in pictures.values()]
-    strips += [np.full_like(strips[0], 255)] * (-len(strips) % columns)
-    rows = [np.hstack(strips[start : start + columns]) for start in range(0, len(strips), columns)]
-    sheet = Image.fromarray(np.vstack(rows))
-    buffer = io.BytesIO()
-    sheet.resize((sheet.width // 2, sheet.height // 2), Image.Resampling.LANCZOS).save(
-        buffer, "PNG"
-    )
-    write_bytes(path, buffer.getvalue())
-
-
-def save(figure: Figure, path: str | Path) -> None:
-    """Write a figure as PNG without anything that tells when or by what it was made."""
-    buffer = io.BytesIO()
-    figure.savefig(buffer, format="png", dpi=120, metadata={"Software": None})
-    plt.close(figure)
-    write_bytes(path, buffer.getvalue())
+def _bottom(rows: pd.DataFrame) -> float:
+    """Where the shared axis starts: below all bars and spreads, and the numbers at their feet."""
+    lows = [rows[f"{short}_mean"] - rows[f"{short}_sd"] for short in MEASURES]
+    lows += [rows[f"paper_{short}"] for short in MEASURES]
+    lowest = float(np.nanmin(np.concatenate(lows)))
+    return max(0.0, float(np.floor((lowest - FOOT * TOP) / (1 - FOOT) * 10) / 10))
 
 
 def _steps(axes: Axes, heights: pd.Series, colour: str, label: str) -> None:
@@ -93,6 +68,13 @@ def _steps(axes: Axes, heights: pd.Series, colour: str, label: str) -> None:
     axes.hlines(
         heights, place - 0.45, place + 0.45, colors=colour, linestyles="dashed", label=label
     )
+
+
+def _numbers(axes: Axes, places: NDArray[np.float64], texts: list[str], colour: str) -> None:
+    """Numbers at the feet of bars."""
+    feet = {"transform": axes.get_xaxis_transform(), "rotation": 90, "fontsize": 7.5}
+    for place, text in zip(places, texts, strict=True):
+        axes.text(place, 0.03, text, color=colour, ha="center", va="bottom", **feet)
 
 
 def _has_paper(rows: pd.DataFrame) -> bool:
@@ -111,8 +93,10 @@ def _bars(axes: Axes, rows: pd.DataFrame, short: str) -> None:
         label="here",
         capsize=2,
     )
+    _numbers(axes, place - 0.2 * paper, [f"{mean:.3f}" for mean in rows[f"{short}_mean"]], "white")
     if paper:
         axes.bar(place + 0.2, rows[f"paper_{short}"], 0.4, color=PAPER, label="paper")
+        _numbers(axes, place + 0.2, [f"{mean:.2f}" for mean in rows[f"paper_{short}"]], "black")
     if f"ceiling_{short}" in rows:
         _steps(axes, rows[f"ceiling_{short}"], CEILING, "ceiling of the labels")
     axes.set_xticks(

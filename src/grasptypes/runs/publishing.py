@@ -21,6 +21,7 @@ from grasptypes.errors import InputError
 from grasptypes.params import read_yaml
 from grasptypes.predictors.features import read_pictures
 from grasptypes.predictors.learning_inputs import read_backbone_record, recorded_weights
+from grasptypes.predictors.metrics import METRICS
 from grasptypes.predictors.predictor_files import read_card
 from grasptypes.predictors.weights import Weights
 from grasptypes.runs.run_records import Finished, file_digest, run_record, serving_requirements
@@ -98,7 +99,7 @@ def publish_runs(
         }
     settings = params["tracking"]
     store = Store(root / settings["database"], settings["experiment"], settings["patience_s"])
-    return publish(store, [record for record, _ in pairs], models)
+    return publish(store, [record for record, _ in pairs], models, METRICS)
 
 
 def _servable(files: Finished, weights: Weights, example: np.ndarray) -> LoggedModel:

@@ -102,7 +102,8 @@ def run_record(finished: Finished, params: Mapping[str, Any], tags: Mapping[str,
     children = [
         _child(content, row, curves, shown, dict(tags), times) for row in metrics.to_dict("records")
     ]
-    summary = {f"{name}_mean": float(metrics[name].mean()) for name in METRICS}
+    # Named as the folds' own, so that the UI shows both in one column.
+    summary = {name: float(metrics[name].mean()) for name in METRICS}
     summary |= {f"{name}_sd": float(metrics[name].std()) for name in METRICS}
     mean = curves.groupby("epoch")[["train_loss", "test_loss"]].mean()
     return RunRecord(

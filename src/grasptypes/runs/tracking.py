@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import contextlib
 import fcntl
+import json
 import logging
 import os
 import sqlite3
@@ -31,6 +32,8 @@ from grasptypes.runs.run_records import RunRecord
 LOGGER = logging.getLogger("grasptypes")
 KEY_TAG = "grasptypes.key"
 MODEL_TAG = "grasptypes.model"
+# MLflow's own tag for a shared view of the runs; the link that `make ui` prints ends with its name.
+VIEW_TAG = "mlflow.sharedViewState.results"
 _BATCH = 1000  # the most metrics MLflow takes at once
 _PARAM_LENGTH = 6000  # the longest parameter MLflow takes
 
@@ -174,6 +177,12 @@ class OpenStore:
             added += self.upsert(child, identity)[1]
         return identity, added
 
+    def offer_view(self, metrics: Sequence[str]) -> None:
+        """Keep a view of the runs that has these metrics as columns."""
+        columns = ["attributes.`Created`", *(f"metrics.`{name}`" for name in metrics)]
+        state = json.dumps({"selectedColumns": columns})
+        self._client.set_experiment_tag(self._experiment, VIEW_TAG, state)
+
     def log_model(self, run: str, key: str, model: LoggedModel) -> bool:
         """Log a servable predictor with a run, unless the same one is there; returns if it was."""
         if self._client.get_run(run).data.tags.get(MODEL_TAG) == key:
@@ -206,7 +215,10 @@ class OpenStore:
 
 
 def publish(
-    store: Store, records: Sequence[RunRecord], models: Mapping[str, tuple[str, LoggedModel]]
+    store: Store,
+    records: Sequence[RunRecord],
+    models: Mapping[str, tuple[str, LoggedModel]],
+    columns: Sequence[str] = (),
 ) -> int:
     """Write runs, and the models that belong to them.
 
@@ -214,6 +226,7 @@ def publish(
 
     Args:
         models: key of a record to its model's content key and the model.
+        columns: metrics that the view of the runs shows.
 
     Returns:
         number of runs that were not there before.
@@ -224,6 +237,7 @@ def publish(
     added = 0
     for record in records:
         with store.opened() as opened:
+            opened.offer_view(columns)
             run, new = opened.upsert(record)
             added += new
             if record.key in models and opened.log_model(run, *models[record.key]):

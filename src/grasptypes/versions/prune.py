@@ -25,9 +25,10 @@ OBJECT_FOLDERS = (
     "data/renders",
     "data/features",
     "data/screenshots",
+    "reports/figures/grasps",
 )
 TASK_FOLDERS = ("data/contact_maps", "data/grasps", "data/attempts")
-PICTURE_FOLDERS = ("reports/figures/contact_maps", "reports/figures/grasps")
+PICTURE_FOLDERS = ("reports/figures/contact_maps",)
 
 logger = logging.getLogger(__name__)
 

@@ -1,9 +1,9 @@
-"""Cameras and sheets of the contact pictures; no OpenGL is needed."""
+"""Cameras of the contact pictures; no OpenGL is needed."""
 
 import numpy as np
 import pytest
 
-from grasptypes.contact_maps.contact_pictures import contact_sheet, look_at, studio_of
+from grasptypes.contact_maps.contact_pictures import look_at, studio_of
 
 RENDERS = {
     "size_px": 256,
@@ -42,8 +42,3 @@ def test_camera_is_upright_and_frames_the_object(azimuth_rad):
     seen = (points - pose[:3, 3]) @ pose[:3, :3]
     reach = np.abs(seen[:, :2] / seen[:, 2:]).max() / np.tan(studio.field_of_view_rad / 2)
     assert reach == pytest.approx(studio.fill)
-
-
-def test_sheet_has_a_row_for_every_two_pictures():
-    pictures = {str(i): np.zeros((40, 80, 3), np.uint8) for i in range(5)}
-    assert contact_sheet(pictures, 2, 20).shape == (3 * 34, 80, 3)

@@ -32,7 +32,7 @@ def finished(tmp_path):
 
 def test_parent_holds_mean_and_spread_and_children_their_own(finished):
     record = run_record(finished, PARAMS, {"commit": "abc"})
-    assert record.metrics["angular_similarity_mean"] == pytest.approx(0.55)
+    assert record.metrics["angular_similarity"] == pytest.approx(0.55)
     assert record.metrics["angular_similarity_sd"] == pytest.approx(0.0577, abs=1e-4)
     assert len(record.children) == 4
     child = record.children[1]

@@ -1,0 +1,148 @@
+"""The decision tree of the grasp types as a figure, with the grasps that end in each leaf."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import NamedTuple
+
+import numpy as np
+import pandas as pd
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from numpy.typing import NDArray
+
+from grasptypes.labels.dataset import VALID
+from grasptypes.labels.grasp_type import (
+    LARGE_WRAP,
+    MEDIUM_WRAP,
+    POWER_SPHERE,
+    PRECISION,
+    PRECISION_SPHERE,
+    SMALL_WRAP,
+    Thresholds,
+)
+
+Picture = NDArray[np.uint8]
+
+# Layout in places between leaves and steps between questions: half the height of a question's box,
+# the top of the leaves, and half the width of the words at a branch.
+HALF, LEAF_TOP, WORDS = 0.19, -3.85, 0.28
+
+
+class Branch(NamedTuple):
+    """A question: is the measure above its threshold? `above` and `below` are what follows."""
+
+    measure: str
+    """A field of `grasp_type.Thresholds`."""
+    question: str
+    below: Branch | str
+    above: Branch | str
+
+
+TREE = Branch(
+    "palm_gap_m",
+    "palm gap",
+    below=Branch(
+        "small_diameter_m",
+        "enclosed diameter",
+        below=SMALL_WRAP,
+        above=Branch(
+            "sideways_share",
+            "sideways share",
+            below=Branch("large_span_m", "fingertip span", below=MEDIUM_WRAP, above=LARGE_WRAP),
+            above=POWER_SPHERE,
+        ),
+    ),
+    above=Branch("sideways_share", "sideways share", below=PRECISION, above=PRECISION_SPHERE),
+)
+
+
+def leaves(branch: Branch | str = TREE) -> list[str]:
+    """The grasp types below a branch, from left to right."""
+    if isinstance(branch, str):
+        return [branch]
+    return leaves(branch.below) + leaves(branch.above)
+
+
+def typical_grasps(dataset: pd.DataFrame) -> dict[str, pd.Series]:
+    """For each grasp type that occurs the valid grasp farthest from every threshold it passed.
+
+    Args:
+        dataset: of `dataset.DATASET_SCHEMA`.
+    """
+    valid = dataset[dataset.reason == VALID]
+    rows = valid.loc[valid.groupby("GraspType").margin.idxmax()]
+    return {row.GraspType: row for _, row in rows.iterrows()}
+
+
+def draw_label_tree(
+    counts: Mapping[str, int],
+    rejected: int,
+    thresholds: Thresholds,
+    pictures: Mapping[str, Picture],
+) -> Figure:
+    """The tree from top to bottom, with a picture of a grasp below each leaf.
+
+    Args:
+        counts: valid grasps by type.
+        rejected: number of grasps that physics rejected.
+        pictures: by type, for the types that occur.
+    """
+    figure = Figure(figsize=(10.5, 6.6), layout="constrained")
+    axes = figure.add_subplot()
+    axes.set_axis_off()
+    axes.set_xlim(-0.55, len(leaves()) - 0.45)
+    axes.set_ylim(-5.75, 0.3)
+    places = {name: float(place) for place, name in enumerate(leaves())}
+    _draw(axes, TREE, 0.0, places, counts, thresholds)
+    for name, place in places.items():
+        _leaf(axes, name, place, counts)
+        if name in pictures:
+            inset = axes.inset_axes((place - 0.47, -5.7, 0.94, 1.25), transform=axes.transData)
+            inset.imshow(pictures[name])
+            inset.set_axis_off()
+    total = sum(counts.values())
+    title = f"{total + rejected} grasps: {total} valid, {rejected} rejected by physics (Invalid)"
+    axes.set_title(title, fontsize="medium")
+    return figure
+
+
+def _draw(
+    axes: Axes,
+    branch: Branch,
+    depth: float,
+    places: Mapping[str, float],
+    counts: Mapping[str, int],
+    thresholds: Thresholds,
+) -> float:
+    """Draw a branch and all below it; returns where it stands from left to right."""
+    place, bottom = float(np.mean([places[name] for name in leaves(branch)])), -depth - HALF
+    limit = _amount(branch.measure, getattr(thresholds, branch.measure))
+    for child, words in ((branch.below, f"≤ {limit}"), (branch.above, f"> {limit}")):
+        if isinstance(child, str):
+            end = places[child], LEAF_TOP
+        else:
+            end = _draw(axes, child, depth + 1, places, counts, thresholds), -depth - 1 + HALF
+        axes.plot([place, end[0]], [bottom, end[1]], color="#9a9a9a", zorder=0)
+        # Far enough down that the words of the two branches stand beside each other.
+        down = max(0.3, WORDS / max(abs(end[0] - place), WORDS))
+        at = place + down * (end[0] - place), bottom + down * (end[1] - bottom)
+        axes.text(*at, words, ha="center", va="center", fontsize="small", bbox=_BARE)
+    number = sum(counts.get(name, 0) for name in leaves(branch))
+    text = f"{branch.question}\n{number} grasps"
+    axes.text(place, -depth, text, ha="center", va="center", fontsize="small", bbox=_BOX)
+    return place
+
+
+_BOX = {"boxstyle": "round", "facecolor": "#eef2f5", "edgecolor": "#5f6b73"}
+_BARE = {"facecolor": "white", "edgecolor": "none", "pad": 1.0}
+
+
+def _leaf(axes: Axes, name: str, place: float, counts: Mapping[str, int]) -> None:
+    fingers = 3 if name in (POWER_SPHERE, PRECISION_SPHERE) else 2
+    text = f"{name}\n{counts.get(name, 0)} grasps\n{fingers} virtual fingers"
+    axes.text(place, -4.12, text, ha="center", va="center", fontsize="small", bbox=_BOX)
+
+
+def _amount(measure: str, value: float) -> str:
+    return f"{value:.3f}" if measure.endswith("share") else f"{value * 1e3:.1f} mm"

@@ -1,0 +1,70 @@
+"""Sheets of pictures, each under its caption, in groups under their headings."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+from PIL import Image, ImageDraw, ImageFont
+
+INK, WARNING = "#202020", "#b00020"
+# Heights of letters as shares of a picture's height, and the least that can be read, pixels.
+CAPTION_SHARE, HEADING_SHARE, LEAST_PX = 0.075, 0.11, 12
+# Height of a line of text as a multiple of its letters', and its distance from the left, pixels.
+LINE, MARGIN_PX = 1.5, 5
+
+
+class Tile(NamedTuple):
+    """A picture (H, W, 3) uint8 and what stands above it."""
+
+    picture: NDArray[np.uint8]
+    caption: str
+    colour: str = INK
+
+
+class Group(NamedTuple):
+    """Pictures that start a new row, under a heading if there is one."""
+
+    heading: str
+    tiles: Sequence[Tile]
+
+
+def sheet(groups: Sequence[Group], columns: int, height_px: int) -> NDArray[np.uint8]:
+    """All groups below each other, their pictures in rows of `columns`, `height_px` high each.
+
+    Pictures are as wide as the first one, shrunk to the height.
+
+    Returns:
+        (H, W, 3) picture.
+    """
+    shapes = [tile.picture.shape for group in groups for tile in group.tiles] or [(1, 1)]
+    width_px = round(shapes[0][1] * height_px / shapes[0][0])
+    bands = []
+    for group in groups:
+        if group.heading:
+            bands.append(_text(group.heading, columns * width_px, height_px * HEADING_SHARE, INK))
+        tiles = [_tile(tile, width_px, height_px) for tile in group.tiles]
+        for at in range(0, len(tiles), columns):
+            row = tiles[at : at + columns]
+            bands.append(np.hstack(row + [np.full_like(row[0], 255)] * (columns - len(row))))
+    return np.vstack(bands)
+
+
+def _tile(tile: Tile, width_px: int, height_px: int) -> NDArray[np.uint8]:
+    shrunk = Image.fromarray(tile.picture).resize((width_px, height_px), Image.Resampling.LANCZOS)
+    caption = _text(tile.caption, width_px, height_px * CAPTION_SHARE, tile.colour)
+    return np.vstack([caption, np.asarray(shrunk)])
+
+
+def _text(text: str, width_px: int, letters_px: float, colour: str) -> NDArray[np.uint8]:
+    """A line of text, its letters made smaller where it would not fit."""
+    letters_px = max(letters_px, LEAST_PX)
+    line = Image.new("RGB", (width_px, round(letters_px * LINE)), "white")
+    draw = ImageDraw.Draw(line)
+    length_px = draw.textlength(text, ImageFont.load_default(letters_px))
+    fitting_px = letters_px * min(1.0, (width_px - 2 * MARGIN_PX) / max(length_px, 1.0))
+    at = MARGIN_PX, line.height / 2
+    draw.text(at, text, fill=colour, font=ImageFont.load_default(fitting_px), anchor="lm")
+    return np.asarray(line)

@@ -1,0 +1,138 @@
+# What lies behind the tables: grasp types, objects, folds, losses, and what the jobs cost.
+NAMES = [(labels, model) for labels in LABELS for model in MODELS]
+
+
+rule tabulate_types:
+    input:
+        predictions=expand(rules.train_predictor.output.predictions, labels=LABELS, model=MODELS),
+        samples=[SAMPLES[labels] for labels in LABELS],
+    output:
+        table=report(
+            "reports/type_results.csv",
+            caption="../report/type_results.rst",
+            category="Results",
+            labels={"subject": "grasp types", "labels": "both", "kind": "table"},
+        ),
+        figure=report(
+            "reports/figures/type_results.png",
+            caption="../report/type_results.rst",
+            category="Results",
+            labels={"subject": "grasp types", "labels": "both", "kind": "figure"},
+        ),
+    log:
+        "logs/tabulate_types.log",
+    benchmark:
+        "logs/benchmarks/tabulate_types.tsv"
+    conda:
+        "../envs/grasptypes.yaml"
+    params:
+        names=NAMES,
+        labels=LABELS,
+        code=script_hash("tabulate_types"),
+    message:
+        "Tabulating the models by grasp type"
+    script:
+        "../scripts/tabulate_types.py"
+
+
+rule tabulate_objects:
+    input:
+        predictions=rules.tabulate_types.input.predictions,
+        unseen=expand(rules.leave_out_objects.output.metrics, labels=LABELS, model=MODELS),
+        samples=[SAMPLES[labels] for labels in LABELS],
+    output:
+        table=report(
+            "reports/object_results.csv",
+            caption="../report/object_results.rst",
+            category="Results",
+            labels={"subject": "objects", "labels": "both", "kind": "table"},
+        ),
+        figure=report(
+            "reports/figures/object_results.png",
+            caption="../report/object_results.rst",
+            category="Results",
+            labels={"subject": "objects", "labels": "both", "kind": "figure"},
+        ),
+    log:
+        "logs/tabulate_objects.log",
+    benchmark:
+        "logs/benchmarks/tabulate_objects.tsv"
+    conda:
+        "../envs/grasptypes.yaml"
+    params:
+        names=NAMES,
+        labels=LABELS,
+        code=script_hash("tabulate_objects"),
+    message:
+        "Tabulating the models by object"
+    script:
+        "../scripts/tabulate_objects.py"
+
+
+rule plot_folds:
+    input:
+        metrics=expand(rules.train_predictor.output.metrics, labels=LABELS, model=MODELS),
+    output:
+        figure=report(
+            "reports/figures/fold_spread.png",
+            caption="../report/fold_spread.rst",
+            category="Folds",
+            labels={"subject": "spread", "labels": "both", "model": "all"},
+        ),
+    log:
+        "logs/plot_folds.log",
+    benchmark:
+        "logs/benchmarks/plot_folds.tsv"
+    conda:
+        "../envs/grasptypes.yaml"
+    params:
+        code=script_hash("plot_folds"),
+    message:
+        "Drawing the spread over folds and seeds"
+    script:
+        "../scripts/plot_folds.py"
+
+
+rule plot_losses:
+    input:
+        curves=expand(rules.train_predictor.output.curves, labels=LABELS, model=MODELS),
+    output:
+        figure=report(
+            "reports/figures/loss_curves.png",
+            caption="../report/loss_curves.rst",
+            category="Folds",
+            labels={"subject": "losses", "labels": "both", "model": "all"},
+        ),
+    log:
+        "logs/plot_losses.log",
+    benchmark:
+        "logs/benchmarks/plot_losses.tsv"
+    conda:
+        "../envs/grasptypes.yaml"
+    params:
+        names=NAMES,
+        code=script_hash("plot_losses"),
+    message:
+        "Drawing the losses"
+    script:
+        "../scripts/plot_losses.py"
+
+
+# What jobs cost differs from run to run: `make report` draws it from the benchmarks of this machine,
+# and neither Snakemake nor DVC keeps it. Files without a rule that are shown in the report.
+rule timing:
+    input:
+        figure=report(
+            "build/timing.png",
+            caption="../report/timing.rst",
+            category="Timing",
+            labels={"kind": "figure"},
+        ),
+        table=report(
+            "build/timing.csv",
+            caption="../report/timing.rst",
+            category="Timing",
+            labels={"kind": "table"},
+        ),
+    message:
+        "The costs of all jobs are drawn"

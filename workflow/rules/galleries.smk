@@ -1,0 +1,123 @@
+# Pictures of grasps, and the sheets that show them.
+
+
+rule picture_grasps:
+    input:
+        grasps=lambda wildcards: expand(
+            rules.synthesize_grasps.output.grasps, object=wildcards.object, task=TASKS
+        ),
+        visual=rules.prepare_object.output.visual,
+    output:
+        pictures="data/screenshots/{object}.zip",
+    log:
+        "logs/picture_grasps/{object}.log",
+    benchmark:
+        "logs/benchmarks/picture_grasps/{object}.tsv"
+    conda:
+        "../envs/grasptypes.yaml"
+    params:
+        tasks=TASKS,
+        renders=settings("renders", "views", "sheet"),
+        settings=settings("gallery", "size_px", "tile_px", "columns", "rejected", "sessions"),
+        code=script_hash("picture_grasps"),
+    message:
+        "Taking a picture of every grasp of {wildcards.object}"
+    script:
+        "../scripts/picture_grasps.py"
+
+
+rule plot_grasps:
+    input:
+        grasps=expand(rules.synthesize_grasps.output.grasps, object=OBJECTS, task=TASKS),
+        visuals=expand(rules.prepare_object.output.visual, object=OBJECTS),
+    output:
+        sheet=report(
+            "reports/figures/gallery.png",
+            caption="../report/gallery.rst",
+            category="Grasps",
+            labels={"subject": "gallery", "kind": "figure"},
+        ),
+    log:
+        "logs/plot_grasps.log",
+    benchmark:
+        "logs/benchmarks/plot_grasps.tsv"
+    conda:
+        "../envs/grasptypes.yaml"
+    params:
+        names=[(name, task) for name in OBJECTS for task in TASKS],
+        objects=OBJECTS,
+        renders=settings("renders", "views", "sheet"),
+        settings=settings("gallery", "screenshot_px", "rejected", "sessions"),
+        code=script_hash("plot_grasps"),
+    message:
+        "Drawing the gallery of grasps"
+    script:
+        "../scripts/plot_grasps.py"
+
+
+rule plot_rejected_grasps:
+    input:
+        attempts=expand(rules.synthesize_grasps.output.attempts, object=OBJECTS, task=TASKS),
+        visuals=expand(rules.prepare_object.output.visual, object=OBJECTS),
+    output:
+        sheet=report(
+            "reports/figures/rejected_grasps.png",
+            caption="../report/rejected_grasps.rst",
+            category="Grasps",
+            labels={"subject": "rejected grasps", "kind": "figure"},
+        ),
+    log:
+        "logs/plot_rejected_grasps.log",
+    benchmark:
+        "logs/benchmarks/plot_rejected_grasps.tsv"
+    conda:
+        "../envs/grasptypes.yaml"
+    params:
+        objects=OBJECTS,
+        renders=settings("renders", "views", "sheet"),
+        settings=settings("gallery", "screenshot_px", "columns", "sessions"),
+        code=script_hash("plot_rejected_grasps"),
+    message:
+        "Drawing examples of rejected grasps"
+    script:
+        "../scripts/plot_rejected_grasps.py"
+
+
+rule plot_sessions:
+    input:
+        dataset="data/grasps.csv",
+        pictures=expand(rules.picture_grasps.output.pictures, object=OBJECTS),
+    output:
+        sheets=[
+            report(
+                f"reports/figures/grasps/{name}.png",
+                caption="../report/sessions.rst",
+                category="Grasps",
+                subcategory="All grasps of an object",
+                labels={"object": name},
+            )
+            for name in OBJECTS
+        ],
+    log:
+        "logs/plot_sessions.log",
+    benchmark:
+        "logs/benchmarks/plot_sessions.tsv"
+    conda:
+        "../envs/grasptypes.yaml"
+    params:
+        objects=OBJECTS,
+        tasks=TASKS,
+        settings=config["gallery"]["sessions"]
+        | {"png_compression": config["renders"]["png_compression"]},
+        code=script_hash("plot_sessions"),
+    message:
+        "Laying out all grasps of every object"
+    script:
+        "../scripts/plot_sessions.py"
+
+
+rule screenshots:
+    input:
+        expand(rules.picture_grasps.output, object=OBJECTS),
+    message:
+        "All grasps are pictured"

@@ -1,0 +1,42 @@
+"""Draw the decision tree of the grasp types with the number of grasps in each leaf."""
+
+from collections.abc import Mapping
+from pathlib import PurePath
+from typing import Any
+
+from grasptypes.jobs import job
+from grasptypes.labels.dataset import DATASET_SCHEMA, VALID
+from grasptypes.labels.grasp_type import Thresholds
+from grasptypes.labels.label_pictures import save_figure
+from grasptypes.labels.label_tree import draw_label_tree, typical_grasps
+from grasptypes.reports.session_pictures import read_named_pictures
+from grasptypes.tables import read_table
+
+
+def plot_label_tree(
+    dataset: str, archives: Mapping[str, str], target: str, thresholds: Mapping[str, Any]
+) -> None:
+    """Write the figure.
+
+    Args:
+        dataset: of `dataset.DATASET_SCHEMA`.
+        archives: pictures of all grasps, by object.
+    """
+    table = read_table(dataset, DATASET_SCHEMA)
+    counts = table[table.reason == VALID].GraspType.value_counts().to_dict()
+    pictures = {
+        name: read_named_pictures(archives[row.Object])[PurePath(row.Image).name]
+        for name, row in typical_grasps(table).items()
+    }
+    rejected = int((table.reason != VALID).sum())
+    save_figure(draw_label_tree(counts, rejected, Thresholds(**thresholds), pictures), target)
+
+
+if __name__ == "__main__":
+    with job(snakemake.log):
+        plot_label_tree(
+            snakemake.input.dataset,
+            dict(zip(snakemake.params.objects, snakemake.input.pictures, strict=True)),
+            snakemake.output.figure,
+            snakemake.params.thresholds,
+        )

@@ -1,0 +1,46 @@
+"""Lay out the pictures of all grasps of each object: a group a task, a picture a session."""
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from grasptypes.files import write_bytes
+from grasptypes.jobs import job
+from grasptypes.labels.dataset import DATASET_SCHEMA
+from grasptypes.renders.renderer import png_bytes
+from grasptypes.reports.session_pictures import read_named_pictures, session_groups
+from grasptypes.reports.sheets import sheet
+from grasptypes.tables import read_table
+
+
+def plot_sessions(
+    dataset: str,
+    archives: Mapping[str, str],
+    targets: Mapping[str, str],
+    tasks: Sequence[str],
+    params: Mapping[str, Any],
+) -> None:
+    """Write a sheet for each object.
+
+    Args:
+        dataset: of `dataset.DATASET_SCHEMA`.
+        archives: pictures by object.
+        targets: files to write, by object.
+    """
+    table = read_table(dataset, DATASET_SCHEMA)
+    for name, archive in archives.items():
+        rows = table[table.Object == name]
+        groups = session_groups(rows, read_named_pictures(archive), tasks)
+        whole = sheet(groups, params["columns"], params["tile_px"])
+        write_bytes(targets[name], png_bytes(whole, params["png_compression"]))
+
+
+if __name__ == "__main__":
+    with job(snakemake.log):
+        objects: Sequence[str] = snakemake.params.objects
+        plot_sessions(
+            snakemake.input.dataset,
+            dict(zip(objects, snakemake.input.pictures, strict=True)),
+            dict(zip(objects, snakemake.output.sheets, strict=True)),
+            snakemake.params.tasks,
+            snakemake.params.settings,
+        )
