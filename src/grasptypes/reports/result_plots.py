@@ -8,7 +8,6 @@ import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
 
 from grasptypes.labels.label_pictures import save_figure
 from grasptypes.reports.results import constant_rows
@@ -70,11 +69,12 @@ def _steps(axes: Axes, heights: pd.Series, colour: str, label: str) -> None:
     )
 
 
-def _numbers(axes: Axes, places: NDArray[np.float64], texts: list[str], colour: str) -> None:
+def _numbers(axes: Axes, places: np.ndarray, texts: list[str], colour: str) -> None:
     """Numbers at the feet of bars."""
-    feet = {"transform": axes.get_xaxis_transform(), "rotation": 90, "fontsize": 7.5}
+    foot = axes.get_xaxis_transform()
     for place, text in zip(places, texts, strict=True):
-        axes.text(place, 0.03, text, color=colour, ha="center", va="bottom", **feet)
+        number = axes.text(place, 0.03, text, transform=foot, ha="center", va="bottom")
+        number.set(color=colour, rotation=90, fontsize=7.5)
 
 
 def _has_paper(rows: pd.DataFrame) -> bool:
