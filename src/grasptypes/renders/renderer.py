@@ -204,8 +204,10 @@ class Camera:
                 studio.shadow_strength,
                 studio.shadow_fading,
             )
-        colour = self._background * ground[..., None] + picture[..., :3]
-        return np.minimum(colour + np.float32(0.5), 255).astype(np.uint8)
+        colour = self._background * ground[..., None]
+        colour += picture[..., :3]
+        colour += np.float32(0.5)
+        return np.minimum(colour, 255, out=colour).astype(np.uint8)
 
 
 class Views:

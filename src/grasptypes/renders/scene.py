@@ -201,7 +201,12 @@ def ground_light(
     counts = np.bincount(place[0] * 3 * cells + place[1], weight, (3 * cells) ** 2)
     raster = counts.reshape(3 * cells, 3 * cells).astype(np.float32)
     raster[[0, -1]] = raster[:, [0, -1]] = 0  # where everything further away was put
-    blurred = gaussian_filter(raster, softness_px / 4)[cells : 2 * cells, cells : 2 * cells]
+    # Only what the blur can carry into the picture is blurred: up to four deviations.
+    blur_cells = softness_px / 4
+    reach = min(int(np.ceil(4 * blur_cells)) + 1, cells)
+    seen = slice(cells - reach, 2 * cells + reach)
+    blurred = gaussian_filter(raster[seen, seen], blur_cells, truncate=4)
+    blurred = blurred[reach : reach + cells, reach : reach + cells]
     usual = float(blurred.sum() / max((blurred > blurred.max() / 10).sum(), 1)) + 1e-9
     light = 1 - strength * (1 - np.exp(-2.0 * blurred / usual))
     coarse = Image.fromarray(light.astype(np.float32))
