@@ -41,6 +41,8 @@ def read_table(path: str | Path, schema: pa.DataFrameSchema) -> pd.DataFrame:
         raise InputError(path, "", f"cannot be read as a table: {error}") from error
     try:
         return schema.validate(table)
-    except pa.errors.SchemaError as error:
-        column = getattr(error.schema, "name", None) or str(error.reason_code)
-        raise InputError(path, str(column), str(error)) from error
+    except (pa.errors.SchemaError, pa.errors.SchemaErrors) as error:
+        # Columns too many come as a collection of errors, even a single one.
+        first = getattr(error, "schema_errors", [error])[0]
+        column = getattr(first.schema, "name", None) or str(first.reason_code)
+        raise InputError(path, str(column), str(first)) from error
