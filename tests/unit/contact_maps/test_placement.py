@@ -1,0 +1,73 @@
+"""Where a person puts the hand on a stick, whose axes are known."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+import trimesh
+
+from grasptypes.contact_maps.affinities import Hold
+from grasptypes.contact_maps.handprint import Hand, Surface, handprint
+from grasptypes.contact_maps.placement import place_hand
+from grasptypes.params import read_yaml
+
+PARAMS = read_yaml("params.yaml")["contact_maps"]
+HAND = Hand.of_length(0.19, PARAMS["hand"])
+STILL = {"tilt_sd_rad": 0.0, "roll_sd_rad": 0.0, "slice_m": 0.01, "depth_m": 0.01}
+HOLD = Hold((), "wrap", "around", "z", 0.25, 0.25, 1.0, "test")
+GRIPS = ["wrap", "enclose", "tripod", "pinch", "rim"]
+
+
+@pytest.fixture(scope="module")
+def stick():
+    """A stick along z from 0 to 0.2 m, 30 mm thick; its upper tenth must not be touched."""
+    mesh = trimesh.creation.cylinder(0.015, 0.2, sections=48)
+    points, faces = trimesh.sample.sample_surface(mesh, 6000, seed=0)
+    points = points + [0, 0, 0.1]
+    return Surface(points, mesh.face_normals[faces], points[:, 2] < 0.18)
+
+
+@pytest.mark.parametrize("grip", GRIPS)
+@pytest.mark.parametrize("seed", range(3))
+def test_palm_side_axis_and_closing_stand_at_right_angles(stick, grip, seed):
+    params = STILL | {"tilt_sd_rad": 0.2, "roll_sd_rad": 0.2}
+    place, height = place_hand(
+        stick, replace(HOLD, grip=grip), HAND, params, np.random.default_rng(seed)
+    )
+    frame = np.array([place.palm_side, place.axis, place.closing])
+    np.testing.assert_allclose(frame @ frame.T, np.eye(3), atol=1e-9)
+    assert height == 0.25
+    assert 2 <= place.fingers <= 4
+
+
+def test_the_centre_is_in_the_middle_at_the_height_that_the_hold_names(stick):
+    place, _ = place_hand(stick, HOLD, HAND, STILL, np.random.default_rng(0))
+    np.testing.assert_allclose(place.centre_m, [0, 0, 0.25 * 0.18], atol=1e-3)
+    assert abs(place.palm_side[2]) < 1e-9
+    assert abs(place.axis[2]) == pytest.approx(1.0)
+
+
+def test_the_palm_comes_from_the_side_that_the_hold_names(stick):
+    hold = replace(HOLD, grip="enclose", approach="-x")
+    place, _ = place_hand(stick, hold, HAND, STILL, np.random.default_rng(0))
+    np.testing.assert_allclose(place.palm_side, [-1, 0, 0], atol=1e-9)
+
+
+@pytest.mark.parametrize("grip", ["wrap", "enclose", "tripod", "pinch"])
+def test_a_hand_touches_only_what_it_may_and_near_its_centre(stick, grip):
+    place, _ = place_hand(stick, replace(HOLD, grip=grip), HAND, STILL, np.random.default_rng(1))
+    contact = handprint(stick, grip, place, HAND)
+    assert contact.max() > 0.5
+    assert contact.min() >= 0
+    assert contact.max() <= 1
+    assert not contact[~stick.mask].any()
+    touched = stick.points_m[contact > 0.5]
+    assert np.abs(touched[:, 2] - place.centre_m[2]).max() < HAND.breadth_m
+
+
+def test_a_hand_is_as_large_as_its_length_says():
+    small, large = (Hand.of_length(length_m, PARAMS["hand"]) for length_m in (0.1, 0.2))
+    assert large.span_m == pytest.approx(2 * small.span_m)
+    offsets = large.finger_offsets_m(3)
+    assert offsets.sum() == pytest.approx(0.0)
+    np.testing.assert_allclose(np.diff(offsets), large.breadth_m / 4)
