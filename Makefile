@@ -7,12 +7,14 @@ PYTHON ?= python3
 VENV ?= .venv
 JOBS ?= 2
 UI_PORT ?= 5057
+KILLS ?= 20
+VERIFY ?=
 BIN := $(abspath $(VENV))/bin
 export PATH := $(BIN):$(PATH)
 export DVC_NO_ANALYTICS := 1
 export MLFLOW_DISABLE_TELEMETRY := true
 
-.PHONY: help setup table1 demo test bad-input lint format doctor publish ui report clean lock
+.PHONY: help setup table1 demo test bad-input test-faults verify lint format doctor publish ui report clean lock
 
 help: ## list the targets
 	@awk -F ':.*## ' '/^[a-z0-9-]+:.*## / {printf "  make %-12s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -35,6 +37,14 @@ test: setup ## the default tests
 
 bad-input: setup ## try every mistake a user can make and write docs/bad_input.md
 	python -W ignore tests/bad_input/table.py
+
+test-faults: setup ## kill KILLS runs at random moments, then full disks, missing libraries and the like
+	python tests/workflow/kill_runs.py build/faults --kills $(KILLS)
+	pytest -m slow tests/workflow/test_faults.py
+
+verify: setup ## compute everything twice from nothing, -j1 and -j2, and compare every file; VERIFY="--params tests/small.yaml"
+	rm -rf build/verify
+	python tests/workflow/verify.py build/verify $(VERIFY)
 
 lint: setup ## style, types and workflow checks
 	ruff check . && ruff format --check . && mypy && snakefmt --check Snakefile workflow

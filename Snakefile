@@ -1,5 +1,6 @@
 # The paper's pipeline, in its order: objects, contact maps, grasps, labels, renders, predictors,
 # tables. `snakemake -j2 reports/table1.csv` is the main job; `snakemake -n` says what is to be done.
+import atexit
 import json
 import os
 import sys
@@ -14,16 +15,18 @@ sys.path.insert(0, str(Path(workflow.basedir) / "src"))
 
 from grasptypes.errors import InputError
 from grasptypes.params import read_yaml, validate_params
-from grasptypes.versions.guard import release_dead_lock, use_this_checkout
+from grasptypes.runs.interruption import take_up_publishing
+from grasptypes.versions.guard import release_dead_lock, remove_leftovers, use_this_checkout
 from grasptypes.versions.job_records import distrust_unrecorded
 
 use_this_checkout(workflow.basedir)
-if workflow.is_main_process:
-    running_lock = release_dead_lock()
-    distrust_unrecorded(PersistenceBase)
-
-# Before Snakemake reads them: it lets a duplicate key pass, and runs code where `__use_yte__` stands.
 try:
+    if workflow.is_main_process:
+        running_lock = release_dead_lock()
+        if running_lock:
+            remove_leftovers(".")
+        distrust_unrecorded(PersistenceBase)
+    # Before Snakemake reads them: it lets a duplicate key pass, and runs code if `__use_yte__` is set.
     SCHEMA = read_yaml(Path(workflow.basedir) / "workflow" / "schemas" / "params.schema.yaml")
     validate_params(read_yaml("params.yaml"), SCHEMA)
 except InputError as error:
@@ -57,6 +60,13 @@ wildcard_constraints:
 onsuccess:
     if any(Path("models").glob("*/*/predictor.json")):
         shell("python -m grasptypes.runs.publishing || true")
+
+
+# Without a job to do there is no `onsuccess`, yet a killed run may have left publishing half done.
+@atexit.register
+def finish_publishing():
+    if workflow.is_main_process and running_lock and not workflow.dryrun:
+        take_up_publishing(Path.cwd())
 
 
 rule all:

@@ -19,14 +19,20 @@ from grasptypes.errors import InputError
 ZIP_EPOCH = (1980, 1, 1, 0, 0, 0)
 
 
+# How the names of files end that are not whole yet.
+TEMPORARY = ".tmp"
+
+
 def write_bytes(path: str | Path, content: bytes) -> None:
     """Write ``content`` to ``path`` through a temporary file and an atomic rename."""
     path = Path(path)
     path.parent.mkdir(parents=True, exist_ok=True)
-    temporary = path.with_name(f".{path.name}.{os.getpid()}.tmp")
+    temporary = path.with_name(f".{path.name}.{os.getpid()}{TEMPORARY}")
     try:
         temporary.write_bytes(content)
         os.replace(temporary, path)
+    except OSError as error:  # a full disk does not say which file it could not take
+        raise OSError(error.errno, error.strerror, str(path)) from error
     finally:
         temporary.unlink(missing_ok=True)
 

@@ -2,18 +2,25 @@
 
 from __future__ import annotations
 
+import errno
 import logging
 import sys
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
+from typing import NoReturn
 
 from grasptypes.errors import InputError
+
+# What a file system answers when it is full, read-only, or somebody else's.
+_REFUSALS = (errno.ENOSPC, errno.EDQUOT, errno.EROFS, errno.EACCES, errno.EPERM)
 
 
 @contextmanager
 def job(log: Sequence[str]) -> Iterator[logging.Logger]:
-    """Log to the rule's log file, and turn an :class:`InputError` into one line and exit status 1.
+    """Log to the rule's log file, and end with one line and exit status 1 where that says it all.
+
+    It does for an :class:`InputError`, a disk that takes nothing, and memory that is too short.
 
     Args:
         log: the rule's log files (``snakemake.log``); the first is used, an empty list means
@@ -30,8 +37,23 @@ def job(log: Sequence[str]) -> Iterator[logging.Logger]:
     try:
         yield logger
     except InputError as error:
-        logger.error("%s", error)
-        sys.stderr.write(f"error: {error}\n")
-        sys.exit(1)
+        _end(logger, str(error))
+    except OSError as error:
+        if error.errno not in _REFUSALS:
+            raise
+        _end(logger, f"{error.filename or 'a file'}: {error.strerror}")
+    except (MemoryError, RuntimeError) as error:
+        if not isinstance(error, MemoryError) and "can't allocate memory" not in str(error):
+            raise  # torch has no type of its own for that
+        _end(
+            logger, "the memory is too short for this job: give it more, or run fewer at once (-j1)"
+        )
     finally:
         logging.shutdown()
+
+
+def _end(logger: logging.Logger, line: str) -> NoReturn:
+    logging.raiseExceptions = False  # the log may lie on the same full disk
+    logger.error("%s", line)
+    sys.stderr.write(f"error: {line}\n")
+    sys.exit(1)

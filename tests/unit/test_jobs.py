@@ -1,3 +1,4 @@
+import errno
 from pathlib import Path
 
 import pytest
@@ -26,6 +27,28 @@ def test_bad_input_is_one_line_and_status_1(
     ]
 
 
+@pytest.mark.parametrize(
+    ("error", "line"),
+    [
+        (
+            OSError(errno.ENOSPC, "No space left on device", "a.npz"),
+            "a.npz: No space left on device",
+        ),
+        (OSError(errno.EROFS, "Read-only file system"), "a file: Read-only file system"),
+        (MemoryError(), "the memory is too short for this job: give it more, or run fewer at once"),
+    ],
+)
+def test_what_the_machine_lacks_is_one_line(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], error: Exception, line: str
+) -> None:
+    with pytest.raises(SystemExit), job([str(tmp_path / "job.log")]):
+        raise error
+    assert capsys.readouterr().err.startswith(f"error: {line}")
+    assert line in (tmp_path / "job.log").read_text()
+
+
 def test_other_errors_are_not_swallowed(tmp_path: Path) -> None:
     with pytest.raises(ZeroDivisionError), job([str(tmp_path / "job.log")]):
         _ = 1 / 0
+    with pytest.raises(FileNotFoundError), job([str(tmp_path / "job.log")]):
+        (tmp_path / "none").read_text()

@@ -1,3 +1,5 @@
+import subprocess
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
@@ -39,3 +41,19 @@ def complete(tmp_path_factory: pytest.TempPathFactory) -> Repository:
 def changed(complete: Repository, tmp_path: Path) -> Repository:
     """A copy of the computed repository that a test may change."""
     return complete.copy(tmp_path / "repository")
+
+
+@pytest.fixture
+def mount() -> Iterator[Callable[..., None]]:
+    """`mount` with arguments; the last one is the place, which is freed after the test."""
+    places: list[str] = []
+
+    def run(*arguments: str) -> None:
+        done = subprocess.run(["mount", *arguments], capture_output=True, text=True, check=False)
+        if done.returncode:
+            pytest.skip(f"cannot mount here: {done.stderr.strip()}")
+        places.append(arguments[-1])
+
+    yield run
+    for place in reversed(dict.fromkeys(places)):
+        subprocess.run(["umount", "-l", place], capture_output=True, check=False)

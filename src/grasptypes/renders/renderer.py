@@ -6,9 +6,6 @@ and torch's compiler each bring an LLVM, and the process crashes when torch's co
 
 from __future__ import annotations
 
-import contextlib
-import ctypes
-import ctypes.util
 import io
 import logging
 import os
@@ -20,7 +17,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from PIL import Image
 
-from grasptypes.errors import InputError
+from grasptypes.renders.gl_platform import PLATFORM_VARIABLE, choose_platform
 from grasptypes.renders.scene import Part, ground_light, recolour, surface_points, viewpoints
 from grasptypes.seeds import rng
 
@@ -28,8 +25,6 @@ if TYPE_CHECKING:
     import pyrender
 
 LOGGER = logging.getLogger("grasptypes")
-PLATFORM_VARIABLE = "PYOPENGL_PLATFORM"
-_EGL_PLATFORM_DEVICE = 0x313F  # EGL_EXT_platform_device
 
 
 @dataclass(frozen=True)
@@ -70,53 +65,6 @@ class Studio:
     shadow_fading: float
     shadow_points: int
     png_compression: int
-
-
-def choose_platform() -> str:
-    """EGL if a display can be opened without a screen, else OSMesa; ``PYOPENGL_PLATFORM`` rules.
-
-    Raises:
-        InputError: neither works; the message names the packages that are missing.
-    """
-    asked = os.environ.get(PLATFORM_VARIABLE)
-    if asked:
-        if asked not in ("egl", "osmesa"):
-            raise InputError(PLATFORM_VARIABLE, "", f"is '{asked}'; allowed: egl, osmesa")
-        return asked
-    if _egl_works():
-        return "egl"
-    with contextlib.suppress(OSError):
-        ctypes.CDLL(ctypes.util.find_library("OSMesa") or "libOSMesa.so.8")
-        return "osmesa"
-    raise InputError(
-        PLATFORM_VARIABLE,
-        "",
-        "no off-screen OpenGL here; install it: apt-get install libegl1 libgl1-mesa-dri libosmesa6",
-    )
-
-
-def _egl_works() -> bool:
-    """Whether EGL finds a device and can initialise a display on it, asked without OpenGL."""
-    try:
-        egl = ctypes.CDLL(ctypes.util.find_library("EGL") or "libEGL.so.1")
-    except OSError:
-        return False
-    egl.eglGetProcAddress.restype = ctypes.c_void_p
-    query = egl.eglGetProcAddress(b"eglQueryDevicesEXT")
-    display = egl.eglGetProcAddress(b"eglGetPlatformDisplayEXT")
-    if not query or not display:
-        return False
-    devices = (ctypes.c_void_p * 1)()
-    found = ctypes.c_int()
-    int_p = ctypes.POINTER(ctypes.c_int)
-    query_devices = ctypes.CFUNCTYPE(
-        ctypes.c_uint, ctypes.c_int, ctypes.POINTER(ctypes.c_void_p), int_p
-    )(query)
-    get_display = ctypes.CFUNCTYPE(ctypes.c_void_p, ctypes.c_uint, ctypes.c_void_p, int_p)(display)
-    if not query_devices(1, devices, ctypes.byref(found)) or found.value < 1:
-        return False
-    handle = ctypes.c_void_p(get_display(_EGL_PLATFORM_DEVICE, devices[0], None))
-    return bool(handle) and bool(egl.eglInitialize(handle, None, None))
 
 
 class Camera:

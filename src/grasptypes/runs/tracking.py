@@ -187,6 +187,7 @@ class OpenStore:
         """Log a servable predictor with a run, unless the same one is there; returns if it was."""
         if self._client.get_run(run).data.tags.get(MODEL_TAG) == key:
             return False
+        self._forget_models(run)
         with mlflow.start_run(run_id=run):
             mlflow.pyfunc.log_model(
                 name=model.name,
@@ -199,6 +200,14 @@ class OpenStore:
             )
         self._client.set_tag(run, MODEL_TAG, key)
         return True
+
+    def _forget_models(self, run: str) -> None:
+        """Delete the models of a run: halves of calls that were cut off, or older ones."""
+        models = self._client.search_logged_models(
+            [self._experiment], filter_string=f"source_run_id = '{run}'"
+        )
+        for model in models:
+            self._client.delete_logged_model(model.model_id)
 
     def _write(self, run: str, record: RunRecord, stamp_ms: int) -> None:
         params = [Param(name, str(value)[:_PARAM_LENGTH]) for name, value in record.params.items()]

@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import IO
 
 from grasptypes.errors import InputError
+from grasptypes.files import TEMPORARY
 
 
 def use_this_checkout(root: str | Path) -> None:
@@ -36,10 +37,16 @@ def release_dead_lock(state: str | Path = ".snakemake", patience_s: float = 2.0)
     Returns:
         the open lock file, to be kept for as long as the process lives; None if somebody else is
         running, in which case Snakemake's own lock decides.
+
+    Raises:
+        InputError: the folder cannot be written.
     """
     state = Path(state)
-    state.mkdir(exist_ok=True)
-    lock = open(state / "running.lock", "a+")  # noqa: SIM115 - open until the process ends
+    try:
+        state.mkdir(exist_ok=True)
+        lock = open(state / "running.lock", "a+")  # noqa: SIM115 - open until the process ends
+    except OSError as error:
+        raise InputError(state, "", f"cannot be written: {error.strerror}") from error
     deadline = time.monotonic() + patience_s
     while True:
         try:
@@ -58,6 +65,21 @@ def release_dead_lock(state: str | Path = ".snakemake", patience_s: float = 2.0)
     shutil.rmtree(state / "locks", ignore_errors=True)
     (state / "locks").mkdir(exist_ok=True)
     return lock
+
+
+def remove_leftovers(root: str | Path) -> list[Path]:
+    """Remove the half-written files of a killed run; only for who holds the lock of the folder.
+
+    Results are written under another name and renamed, so nobody ever reads such a file.
+
+    Returns:
+        the removed files.
+    """
+    folders = (Path(root) / name for name in ("data", "models", "reports"))
+    found = [path for folder in folders for path in folder.rglob(f".*{TEMPORARY}")]
+    for path in found:
+        path.unlink()
+    return found
 
 
 def check_cache_links(root: str | Path) -> None:

@@ -9,7 +9,8 @@ from PIL import Image
 
 from grasptypes.errors import InputError
 from grasptypes.params import read_yaml
-from grasptypes.renders.renderer import Camera, Studio, choose_platform
+from grasptypes.renders.gl_platform import choose_platform
+from grasptypes.renders.renderer import Camera, Studio
 from grasptypes.renders.scene import Part
 
 SETTINGS = {

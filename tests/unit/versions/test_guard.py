@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from grasptypes.errors import InputError
-from grasptypes.versions.guard import check_cache_links, release_dead_lock
+from grasptypes.versions.guard import check_cache_links, release_dead_lock, remove_leftovers
 
 HOLDER = """
 import sys, time
@@ -58,6 +58,25 @@ def test_a_living_run_keeps_its_lock_and_is_named(
     finally:
         process.kill()
         process.wait()
+
+
+def test_half_written_files_of_a_killed_run_are_removed(tmp_path: Path) -> None:
+    kept = tmp_path / "data" / "grasps.csv"
+    half = tmp_path / "data" / "objects" / "mug" / ".surface.npz.4711.tmp"
+    mine = tmp_path / "notes" / ".draft.tmp"
+    for path in (kept, half, mine):
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.touch()
+    assert remove_leftovers(tmp_path) == [half]
+    assert kept.exists()
+    assert mine.exists()
+    assert not half.exists()
+
+
+def test_a_folder_that_takes_nothing_is_named(tmp_path: Path) -> None:
+    (tmp_path / "file").touch()
+    with pytest.raises(InputError, match=r"file/state: cannot be written: Not a directory"):
+        release_dead_lock(tmp_path / "file" / "state")
 
 
 @pytest.mark.parametrize("types", ["hardlink", "symlink", '"reflink,hardlink,copy"'])

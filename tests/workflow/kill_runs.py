@@ -1,0 +1,131 @@
+"""Kill runs of the small configuration at random moments, start them again, and compare.
+
+``python tests/workflow/kill_runs.py FOLDER --kills 20`` prints a line a kill; the exit status is 1
+if any of them left a trace. FOLDER keeps the undisturbed run, which later calls compare with.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+import random
+import shutil
+import signal
+import sqlite3
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+from repository import TARGET, Repository
+from verify import checksums
+
+RUN = ("snakemake", "-j2", TARGET)
+
+
+def runs(root: Path) -> dict[str, int]:
+    """What MLflow shows: runs and models by their state."""
+    with sqlite3.connect(root / "mlflow.db") as store:
+        states = store.execute("select status, count(*) from runs group by status").fetchall()
+        models = store.execute(
+            "select status, count(*) from logged_models where lifecycle_stage = 'active' "
+            "group by status"
+        ).fetchall()
+    found = {f"runs {status}": count for status, count in states}
+    return found | {f"models {status}": count for status, count in models}
+
+
+def processes_in(root: Path) -> list[int]:
+    """Processes whose current folder is the repository."""
+    found = []
+    for entry in Path("/proc").glob("[0-9]*"):
+        try:
+            if Path(os.readlink(entry / "cwd")) == root.resolve():
+                found.append(int(entry.name))
+        except OSError:  # gone, or somebody else's
+            continue
+    return found
+
+
+def undisturbed(folder: Path) -> tuple[Repository, float]:
+    """The run that nobody killed, computed once, and how long it takes."""
+    repository, noted = Repository(folder / "undisturbed"), folder / "seconds.json"
+    if not noted.exists():
+        Repository.create(folder / "fresh")
+        repository = Repository(folder / "fresh").copy(folder / "undisturbed")
+        begun = time.monotonic()
+        repository.run(*RUN)
+        noted.write_text(json.dumps(time.monotonic() - begun))
+    return repository, json.loads(noted.read_text())
+
+
+def kill_after(repository: Repository, seconds: float) -> bool:
+    """Start a run and kill its process group; returns whether it was still running."""
+    with (repository.path / "killed.log").open("w") as log:
+        process = subprocess.Popen(
+            RUN,
+            cwd=repository.path,
+            env=repository.environment(),
+            stdout=log,
+            stderr=log,
+            start_new_session=True,
+        )
+        try:
+            process.wait(seconds)
+        except subprocess.TimeoutExpired:
+            os.killpg(process.pid, signal.SIGKILL)
+            process.wait()
+            return True
+    return False
+
+
+def faults(repository: Repository, expected: Repository) -> list[str]:
+    """Start a killed run again; returns what is other than without the kill."""
+    found = [f"process {number} lives on" for number in processes_in(repository.path)]
+    again = repository.run(*RUN, check=False)
+    if "unlock" in again or "Error" in again:
+        found.append(f"the second run complains: {again[-500:]}")
+    ours, theirs = checksums(repository.path), checksums(expected.path)
+    found += [f"{name} differs" for name in sorted(set(ours.items()) ^ set(theirs.items()))]
+    if runs(repository.path) != runs(expected.path):
+        found.append(f"MLflow shows {runs(repository.path)} instead of {runs(expected.path)}")
+    if not repository.snakemake_is_clean():
+        found.append("a third run would not be for nothing")
+    return found
+
+
+def try_kill(folder: Path, seed: int, number: int) -> list[str]:
+    """One kill; prints when it was and what came of it."""
+    expected, whole_s = undisturbed(folder)
+    moment_s = random.Random(f"{seed} {number}").uniform(0, whole_s)
+    repository = Repository(folder / "fresh").copy(folder / f"kill_{number}")
+    running = kill_after(repository, moment_s)
+    there = len(checksums(repository.path))
+    found = faults(repository, expected) if running else ["the run had ended"]
+    files = f"{there} of {len(checksums(expected.path))} files"
+    line = f"kill {number} after {moment_s:5.1f} of {whole_s:.1f} s, {files}: "
+    sys.stdout.write(line + ("; ".join(found) or "no trace") + "\n")
+    sys.stdout.flush()
+    if not found:
+        shutil.rmtree(repository.path)
+    return found
+
+
+def main() -> None:
+    """Command line."""
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("folder", type=Path)
+    parser.add_argument("--kills", type=int, default=20)
+    parser.add_argument("--first", type=int, default=0, help="number of the first kill")
+    parser.add_argument("--seed", type=int, default=0)
+    asked = parser.parse_args()
+    asked.folder.mkdir(parents=True, exist_ok=True)
+    numbers = range(asked.first, asked.first + asked.kills)
+    bad = [number for number in numbers if try_kill(asked.folder, asked.seed, number)]
+    sys.stdout.write(f"{len(numbers) - len(bad)} of {len(numbers)} kills left no trace\n")
+    sys.exit(bool(bad))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,147 @@
+"""What the machine can do to a run: it says so on one line, and nothing is lost."""
+
+from __future__ import annotations
+
+import shutil
+import sqlite3
+import subprocess
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from kill_runs import RUN, runs
+from repository import Repository
+from verify import checksums
+
+pytestmark = pytest.mark.slow
+OBJECT = "data/objects/mug"
+
+
+def lose(repository: Repository, *names: str) -> None:
+    """Results that a run has to make again."""
+    for name in names:
+        for path in repository.path.glob(name):
+            shutil.rmtree(path) if path.is_dir() else path.unlink()
+
+
+def is_whole(repository: Repository, complete: Repository) -> bool:
+    """Whether another run makes everything as it would have been."""
+    repository.run(*RUN)
+    return checksums(repository.path) == checksums(complete.path)
+
+
+@pytest.mark.parametrize("free_kb", [0, 300])
+def test_a_full_disk(
+    complete: Repository, tmp_path: Path, mount: Callable[..., None], free_kb: int
+) -> None:
+    disk = tmp_path / "disk"
+    disk.mkdir()
+    mount("-t", "tmpfs", "-o", "size=1g", "tmpfs", str(disk))
+    repository = complete.copy(disk / "repository")
+    lose(repository, OBJECT)
+    used_kb = shutil.disk_usage(disk).used // 1024
+    mount("-o", f"remount,size={used_kb + free_kb}k", str(disk))
+    output = repository.run(*RUN, check=False)
+    assert "No space left on device" in output
+    mount("-o", "remount,size=1g", str(disk))
+    assert is_whole(repository, complete)
+
+
+def test_a_folder_that_is_read_only(
+    changed: Repository, complete: Repository, mount: Callable[..., None]
+) -> None:
+    lose(changed, OBJECT)
+    place = str(changed.path)
+    mount("--bind", place, place)
+    mount("-o", "remount,ro,bind", place)
+    output = changed.run(*RUN, check=False)
+    assert "Read-only file system" in output
+    assert "Traceback" not in output
+    subprocess.run(["umount", place], check=True)
+    assert is_whole(changed, complete)
+
+
+def test_results_that_are_read_only(
+    changed: Repository, complete: Repository, mount: Callable[..., None]
+) -> None:
+    lose(changed, f"{OBJECT}/*")
+    place = str(changed.path / OBJECT)
+    mount("--bind", place, place)
+    mount("-o", "remount,ro,bind", place)
+    output = changed.run(*RUN, check=False)
+    assert "Read-only file system" in output
+    subprocess.run(["umount", place], check=True)
+    assert is_whole(changed, complete)
+
+
+def test_a_store_of_runs_that_is_locked(changed: Repository, complete: Repository) -> None:
+    changed.set_param("tracking.patience_s", 1)
+    lose(changed, "mlflow.db", "mlruns", "reports/metrics/simulated/no_task.csv")
+    with sqlite3.connect(changed.path / "mlflow.db", isolation_level=None) as held:
+        held.execute("BEGIN EXCLUSIVE")
+        output = changed.run(*RUN)
+        held.execute("ROLLBACK")
+    assert "mlflow.db: cannot be written" in output
+    assert "make publish" in output
+    assert checksums(changed.path) == checksums(complete.path)
+    source = str(changed.path / "src")
+    changed.run("python", "-m", "grasptypes.runs.publishing", PYTHONPATH=source)
+    assert runs(changed.path) == runs(complete.path)
+
+
+def test_a_store_of_runs_that_is_out_of_reach(changed: Repository, complete: Repository) -> None:
+    changed.set_param("tracking.database", "/proc/nowhere/mlflow.db")
+    lose(changed, "reports/metrics/simulated/no_task.csv")
+    output = changed.run(*RUN)
+    assert "/proc/nowhere/mlflow.db: cannot be written" in output
+    assert checksums(changed.path) == checksums(complete.path)
+
+
+def test_a_gl_library_that_is_missing(changed: Repository, complete: Repository) -> None:
+    lose(changed, "data/renders/mug.*")
+    # Hidden from this run alone, in a mount namespace of its own.
+    hide = 'for file in $HIDDEN; do mount --bind /dev/null "$file" || exit 9; done; exec "$@"'
+    hidden = " ".join(libraries("libEGL.so.1", "libOSMesa.so.8"))
+    output = changed.run(
+        "unshare", "-m", "bash", "-c", hide, "bash", *RUN, check=False, HIDDEN=hidden
+    )
+    if "mount: " in output:
+        pytest.skip(f"cannot mount here: {output.splitlines()[0]}")
+    line = "error: PYOPENGL_PLATFORM: no off-screen OpenGL here; install it: apt-get install"
+    assert line in output
+    assert "Traceback" not in output
+    assert is_whole(changed, complete)
+
+
+def libraries(*names: str) -> list[str]:
+    """Paths of those libraries that are installed."""
+    known = subprocess.run(["ldconfig", "-p"], capture_output=True, text=True, check=True).stdout
+    return [
+        line.rpartition("=> ")[2]
+        for line in known.splitlines()
+        if line.strip().split(" ")[0] in names
+    ]
+
+
+def test_two_runs_at_once(changed: Repository, complete: Repository) -> None:
+    lose(changed, OBJECT, "data/grasps/mug/*")
+    with (changed.path / "first.log").open("w") as log:
+        first = subprocess.Popen(
+            RUN, cwd=changed.path, env=changed.environment(), stdout=log, stderr=log
+        )
+        locks = changed.path / ".snakemake/locks"
+        while first.poll() is None and not any(locks.glob("*")):
+            time.sleep(0.1)
+        second = changed.run(*RUN, check=False)
+        assert f"another run holds this folder: process {first.pid}" in second
+        assert first.wait() == 0
+    assert checksums(changed.path) == checksums(complete.path)
+
+
+def test_memory_too_short_for_one_job(changed: Repository, complete: Repository) -> None:
+    lose(changed, OBJECT)
+    limited = ("prlimit", f"--as={2**30}", *RUN)
+    output = changed.run(*limited, check=False)
+    assert "memory" in output.lower()
+    assert is_whole(changed, complete)
