@@ -191,7 +191,7 @@ class OpenStore:
         with mlflow.start_run(run_id=run):
             mlflow.pyfunc.log_model(
                 name=model.name,
-                python_model=str(model.package / "serving.py"),
+                python_model=str(model.package / "runs" / "serving.py"),
                 artifacts={name: str(path) for name, path in model.artifacts.items()},
                 code_paths=[str(model.package)],
                 signature=model.signature(),
