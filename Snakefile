@@ -56,6 +56,23 @@ wildcard_constraints:
     task="|".join(TASKS),
 
 
+# A few seconds each, or in need of a network: on a cluster these run beside Snakemake.
+localrules:
+    fetch_published,
+    prepare_backbone,
+    label_published,
+    split_folds,
+    label_grasps,
+    compare_distribution,
+    tabulate_simulated,
+    tabulate_published,
+    tabulate_unseen,
+    tabulate_types,
+    tabulate_objects,
+    plot_folds,
+    plot_losses,
+
+
 # MLflow shows what the files hold: results never depend on its store being there.
 onsuccess:
     if any(Path("models").glob("*/*/predictor.json")):
