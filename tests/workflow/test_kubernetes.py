@@ -1,0 +1,82 @@
+"""The Kubernetes profile, with a `kubectl` that runs a pod's command on this machine."""
+
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from repository import ROOT, Repository
+
+# `create` runs what the manifest says and keeps both; `get` answers from what became of it.
+KUBECTL = """\
+#!/usr/bin/env python3
+import json, os, subprocess, sys
+from pathlib import Path
+folder = Path(__file__).parents[1]
+if sys.argv[1] == "create":
+    job = json.load(sys.stdin)
+    container = job["spec"]["template"]["spec"]["containers"][0]
+    given = {entry["name"]: entry["value"] for entry in container["env"]}
+    environment = {"PATH": os.environ["PATH"]} | given
+    done = subprocess.run(container["command"], cwd=container["workingDir"], env=environment)
+    name = f"job-{len(list(folder.glob('*.json')))}"
+    (folder / f"{name}.json").write_text(json.dumps(job))
+    (folder / name).write_text("Complete=True " if done.returncode == 0 else "Failed=True ")
+    print("job.batch/" + name)
+elif sys.argv[1] == "get":
+    print("found " + (folder / Path(sys.argv[2]).name).read_text())
+"""
+
+
+def install(folder: Path, kubectl: str) -> str:
+    """A search path that finds this kubectl first."""
+    program = folder / "bin" / "kubectl"
+    program.parent.mkdir(parents=True)
+    program.write_text(kubectl)
+    program.chmod(0o755)
+    return os.pathsep.join([str(program.parent), os.environ["PATH"]])
+
+
+def test_the_jobs_of_an_object_run_in_one_pod_with_what_they_need(
+    repository: Repository, tmp_path: Path
+) -> None:
+    path = install(tmp_path, KUBECTL)
+    call = ["--profile", "profiles/kubernetes", "--latency-wait", "5"]
+    target = "data/contact_maps/mug/use.npz"
+    call += ["--seconds-between-status-checks", "1", target]
+    repository.run(sys.executable, "-m", "snakemake", *call, PATH=path, GRASPTYPES_PUBLISHED_CSV="")
+    assert (repository.path / target).is_file()
+    (job,) = [json.loads(file.read_text()) for file in tmp_path.glob("job-*.json")]
+    pod = job["spec"]["template"]["spec"]
+    assert pod["securityContext"] == {"runAsUser": os.getuid(), "runAsGroup": os.getgid()}
+    (container,) = pod["containers"]
+    assert container["workingDir"] == str(repository.path)
+    needs = {"cpu": "1", "memory": "600M"}  # prepare_object, then map_contacts
+    assert container["resources"] == {"requests": needs, "limits": needs}
+    assert {"name": "GRASPTYPES_PUBLISHED_CSV", "value": ""} in container["env"]
+    assert job["spec"]["activeDeadlineSeconds"] == 60 * (2 + 1)
+
+
+@pytest.mark.parametrize(
+    ("answer", "state"),
+    [
+        ("echo 'found SuccessCriteriaMet=True Complete=True '", "success"),
+        ("echo 'found FailureTarget=True Failed=True '", "failed"),
+        ("echo 'found '", "running"),
+        ("echo 'found Suspended=False '", "running"),
+        ("true", "failed"),  # no such Job any more
+        ("exit 1", "running"),  # no answer
+    ],
+)
+def test_what_kubernetes_answers_is_said_in_snakemakes_words(
+    answer: str, state: str, tmp_path: Path
+) -> None:
+    path = install(tmp_path, f"#!/bin/sh\n{answer}\n")
+    script = ROOT / "profiles" / "kubernetes" / "status.sh"
+    command = [script, "job.batch/grasptypes-1"]
+    said = subprocess.run(
+        command, env=os.environ | {"PATH": path}, capture_output=True, text=True, check=True
+    )
+    assert said.stdout.strip() == state
