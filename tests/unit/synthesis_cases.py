@@ -12,7 +12,7 @@ from grasptypes.params import read_yaml
 from grasptypes.synthesis.candidates import Person
 from grasptypes.synthesis.fields import Field, field
 from grasptypes.synthesis.hand_model import HandModel, hand_model
-from grasptypes.synthesis.physics import RigidObject
+from grasptypes.synthesis.holding import RigidObject
 from grasptypes.synthesis.search import Thing
 
 ROOT = Path(__file__).parents[2]

@@ -12,7 +12,8 @@ from grasptypes.objects.distance_grid import DistanceGrid
 from grasptypes.objects.object_files import read_properties
 from grasptypes.synthesis.fields import field
 from grasptypes.synthesis.grasps import ATTEMPT_SCHEMA, GRASP_SCHEMA
-from grasptypes.synthesis.physics import PhysicsSettings, physics, read_body
+from grasptypes.synthesis.holding import PhysicsSettings, read_body
+from grasptypes.synthesis.physics import physics
 from grasptypes.synthesis.search import Thing
 from grasptypes.synthesis.settings import sampled_hand, search_settings
 from grasptypes.synthesis.trials import Problem, ValiditySettings, synthesize

@@ -37,6 +37,9 @@ _TRIAL_COLUMNS = {
     "penetration_m": pa.Column(float, pa.Check.ge(0), description="hand in object"),
     "moved_m": pa.Column(float, pa.Check.ge(0), description="object in the hand, under gravity"),
     "turned_rad": pa.Column(float, pa.Check.ge(0), description="object in the hand"),
+    "grip_deviation": pa.Column(
+        float, pa.Check.ge(0), description="of that hand's shape from the person's grip"
+    ),
     "valid": pa.Column(bool),
     "valid_strict": pa.Column(bool, description="valid, and within the strict depth"),
     "reason": pa.Column(str, pa.Check.isin(("", *REASONS))),
@@ -45,7 +48,7 @@ _TRIAL_COLUMNS = {
 _REASON_MATCHES = pa.Check(lambda table: table.valid == (table.reason == ""), name="reason")
 
 ATTEMPT_SCHEMA = pa.DataFrameSchema(
-    _TRIAL_COLUMNS,
+    {**_TRIAL_COLUMNS, "chosen": pa.Column(bool, description="is the session's grasp")},
     checks=_REASON_MATCHES,
     strict=True,
     ordered=True,

@@ -43,6 +43,8 @@ class ShapeSettings(NamedTuple):
     """Length of the closing direction added to the unit normal."""
     weight: float
     """What a measure that lacks all of its least, or has twice its most, adds to the energy."""
+    kept: float
+    """Deviation up to which a held hand has kept its grip."""
 
 
 def deviation(

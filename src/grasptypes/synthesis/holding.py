@@ -2,17 +2,22 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from grasptypes.hand import kinematics
+from grasptypes.objects.object_files import read_properties
 
 Array = NDArray[np.float64]
 
 # A joint this far behind where it has been is being driven back: 0.1 mm at the fingertip.
 DRIVEN_BACK_RAD = 0.001
+# The joints of the three fingers within `kinematics.JOINT_NAMES`.
+BASES, TIPS = slice(2, 5), slice(5, 8)
 
 
 class PhysicsSettings(NamedTuple):
@@ -29,6 +34,10 @@ class PhysicsSettings(NamedTuple):
     passive_force_n: float
     """Force at the fingertip that the stopped fingers withstand."""
     closing_speed_rad_s: float
+    gear_correction: float
+    """Share of a coupled fingertip's lag that is made up for in a time step."""
+    gear_torque_nm: float
+    """Torque up to which the coupling of a finger's base and tip is held."""
     squeeze_time_s: float
     hold_time_s: float
     drop_distance_m: float
@@ -37,6 +46,34 @@ class PhysicsSettings(NamedTuple):
     """The same for its rotation."""
     shake: bool
     """Whether gravity acts from all six sides in turn instead of along -z only."""
+
+
+@dataclass(frozen=True)
+class RigidObject:
+    """A free rigid body.
+
+    Attributes:
+        collision: OBJ with a group (`o`) for each convex part, metres, in the object's frame.
+        mass_kg: its mass.
+        centre_of_mass_m: (3,).
+        inertia_kg_m2: (3, 3) about the centre of mass, along the object's axes.
+    """
+
+    collision: Path
+    mass_kg: float
+    centre_of_mass_m: Array
+    inertia_kg_m2: Array
+
+
+def read_body(collision: str | Path, properties: str | Path) -> RigidObject:
+    """The body of an object from its files; see `object_files`."""
+    numbers = read_properties(properties)
+    return RigidObject(
+        Path(collision),
+        float(numbers["mass_kg"]),
+        np.array(numbers["centre_of_mass_m"]),
+        np.array(numbers["inertia_kg_m2"]),
+    )
 
 
 class Contact(NamedTuple):
@@ -71,39 +108,53 @@ class Held(NamedTuple):
 class Motors:
     """The hand's motors: they close with a limited force, and never let go.
 
-    Worm gears keep a joint from being driven back: it withstands the hand's passive force. Base
-    and tip of a finger close at the speeds of their coupling; either goes on alone when the other
-    one is stopped, as the TorqueSwitch lets them.
+    Worm gears keep a joint from being driven back: it withstands the hand's passive force. One
+    motor turns base and tip of a finger, coupled three to one, until the base is stopped by what it
+    touches: then the TorqueSwitch releases it and the tip goes on alone.
     """
 
     def __init__(self, angles_rad: Array, settings: PhysicsSettings) -> None:
-        levers = _levers_m(angles_rad)
-        closing = np.repeat([0.0, 1.0, kinematics.DISTAL_RATIO], [2, 3, 3])
-        self._speeds_rad_s = settings.closing_speed_rad_s * closing
+        lead = angles_rad[TIPS] - kinematics.DISTAL_RATIO * angles_rad[BASES]
+        self.coupled: NDArray[np.bool_] = np.abs(lead) < DRIVEN_BACK_RAD
+        """(3,) fingers whose base and tip still turn together."""
+        self._settings = settings
         self._interval_s = settings.timestep_s * settings.control_steps
-        self._closing_nm = settings.fingertip_force_n * levers
-        self._passive_nm = settings.passive_force_n * levers
         self._reached_rad = angles_rad.copy()
+        self._levers_m = _levers_m(angles_rad, self.coupled)
+
+    def release(self, finger: int) -> None:
+        """From now on the base of a finger (0 to 2) keeps its place and the tip closes alone."""
+        self.coupled[finger] = False
+        self._levers_m = _levers_m(self._reached_rad, self.coupled)
 
     def drive(self, angles_rad: Array) -> tuple[Array, Array]:
-        """What the motors do at joint angles (8,): speeds (8,) rad/s and torque limits (8,) N m."""
-        moves = self._speeds_rad_s > 0
+        """What the motors do at joint angles (8,): speeds (8,) rad/s and torque limits (8,) N m.
+
+        The tip of a coupled finger has no torque of its own.
+        """
+        ratio = kinematics.DISTAL_RATIO
+        tips = np.where(self.coupled, ratio, 1.0 + ratio)
+        speeds = self._settings.closing_speed_rad_s * np.concatenate([[0, 0], self.coupled, tips])
+        moves = np.arange(len(angles_rad)) >= BASES.start
         self._reached_rad = np.where(
             moves, np.maximum(self._reached_rad, angles_rad), self._reached_rad
         )
         stop = kinematics.JOINT_LIMITS_RAD[:, 1]
         way = np.minimum(self._reached_rad, stop) - angles_rad
-        closing = np.minimum(self._speeds_rad_s, (stop - angles_rad) / self._interval_s)
+        closing = np.minimum(speeds, (stop - angles_rad) / self._interval_s)
         withstands = ~moves | (way > DRIVEN_BACK_RAD) | (angles_rad > stop)
-        return (
-            np.where(withstands, way / self._interval_s, closing),
-            np.where(withstands, self._passive_nm, self._closing_nm),
+        withstands[BASES] |= ~self.coupled
+        force_n = np.where(
+            withstands, self._settings.passive_force_n, self._settings.fingertip_force_n
         )
+        force_n[TIPS] = np.where(self.coupled, 0.0, force_n[TIPS])
+        return np.where(withstands, way / self._interval_s, closing), force_n * self._levers_m
 
 
-def _levers_m(angles: Array) -> Array:
-    """(8,) distance of each joint's axis from the fingertip it moves, metres."""
+def _levers_m(angles: Array, coupled: NDArray[np.bool_]) -> Array:
+    """(8,) way of the fingertip that a joint moves, metres per radian of the joint."""
     poses = kinematics.link_poses(angles)[1:]
     tips = kinematics.fingertips(angles)[[0, 1, 0, 1, 2, 0, 1, 2]]
-    way = tips - poses[:, :3, 3]
-    return np.linalg.norm(np.cross(poses[:, :3, 2], way), axis=1)
+    ways = np.cross(poses[:, :3, 2], tips - poses[:, :3, 3])
+    ways[BASES] += kinematics.DISTAL_RATIO * coupled[:, None] * ways[TIPS]
+    return np.linalg.norm(ways, axis=1)

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -18,9 +17,16 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from grasptypes.hand import kinematics
-from grasptypes.objects.object_files import read_properties
 from grasptypes.poses import inverse
-from grasptypes.synthesis.holding import Contact, Held, Motors, PhysicsSettings
+from grasptypes.synthesis.holding import (
+    BASES,
+    TIPS,
+    Contact,
+    Held,
+    Motors,
+    PhysicsSettings,
+    RigidObject,
+)
 
 Array = NDArray[np.float64]
 
@@ -29,23 +35,6 @@ DIRECTIONS = np.concatenate([-np.eye(3)[::-1], np.eye(3)[::-1]])
 
 LOOKS = 20
 """How often a test looks whether the object has been dropped already."""
-
-
-@dataclass(frozen=True)
-class RigidObject:
-    """A free rigid body.
-
-    Attributes:
-        collision: OBJ with a group (`o`) for each convex part, metres, in the object's frame.
-        mass_kg: its mass.
-        centre_of_mass_m: (3,).
-        inertia_kg_m2: (3, 3) about the centre of mass, along the object's axes.
-    """
-
-    collision: Path
-    mass_kg: float
-    centre_of_mass_m: Array
-    inertia_kg_m2: Array
 
 
 class Physics:
@@ -59,6 +48,7 @@ class Physics:
         self._body = body
         self._settings = settings
         self._joints: list[int] = []
+        self._gears: dict[int, int] = {}
         self.steps = 0
         """Time steps made so far, for benchmarks."""
 
@@ -84,13 +74,14 @@ class Physics:
         settings, client = self._settings, self._client
         hand, thing = self._load(T_object_hand, angles)
         motors = Motors(angles, settings)
-        self._run(hand, motors, settings.squeeze_time_s)
+        self._couple(hand, motors)
+        self._run(hand, thing, motors, settings.squeeze_time_s)
         before = self._pose(thing)
         down = T_object_hand[:3, :3].T @ direction * settings.gravity_m_s2
         pybullet.setGravity(*down, physicsClientId=client)
         dropped = False
         for _ in range(LOOKS):
-            self._run(hand, motors, settings.hold_time_s / LOOKS)
+            self._run(hand, thing, motors, settings.hold_time_s / LOOKS)
             after = self._pose(thing)
             moved, turned = _difference(before, after)
             dropped = moved > settings.drop_distance_m or turned > settings.drop_rotation_rad
@@ -170,11 +161,12 @@ class Physics:
         )
         return thing
 
-    def _run(self, hand: int, motors: Motors, time_s: float) -> None:
+    def _run(self, hand: int, thing: int, motors: Motors, time_s: float) -> None:
         """Let time pass while the motors close the fingers as far as their force allows."""
         settings, client = self._settings, self._client
         for _ in range(round(time_s / (settings.timestep_s * settings.control_steps))):
             states = pybullet.getJointStates(hand, self._joints, physicsClientId=client)
+            self._release_stopped(hand, thing, motors)
             speeds, torques = motors.drive(np.array([state[0] for state in states]))
             pybullet.setJointMotorControlArray(
                 hand,
@@ -187,6 +179,37 @@ class Physics:
             for _ in range(settings.control_steps):
                 pybullet.stepSimulation(physicsClientId=client)
             self.steps += settings.control_steps
+
+    def _couple(self, hand: int, motors: Motors) -> None:
+        """Put gears between base and tip of the coupled fingers."""
+        client, settings = self._client, self._settings
+        self._gears = {}
+        for finger in np.flatnonzero(motors.coupled).tolist():
+            base, tip = self._joints[BASES][finger], self._joints[TIPS][finger]
+            gear = pybullet.createConstraint(
+                *(hand, base, hand, tip, pybullet.JOINT_GEAR),
+                *([0.0, 0.0, 1.0], [0.0, 0.0, 0.0], [0.0, 0.0, 0.0]),
+                physicsClientId=client,
+            )
+            pybullet.changeConstraint(
+                gear,
+                gearRatio=-1.0 / kinematics.DISTAL_RATIO,
+                erp=settings.gear_correction,
+                maxForce=settings.gear_torque_nm,
+                physicsClientId=client,
+            )
+            self._gears[finger] = gear
+
+    def _release_stopped(self, hand: int, thing: int, motors: Motors) -> None:
+        """Open the TorqueSwitch of the fingers whose base presses on the object."""
+        client = self._client
+        for finger, gear in list(self._gears.items()):
+            base = self._joints[BASES][finger]
+            touching = pybullet.getContactPoints(hand, thing, base, physicsClientId=client)
+            if any(point[9] > 0.0 for point in touching):
+                pybullet.removeConstraint(gear, physicsClientId=client)
+                del self._gears[finger]
+                motors.release(finger)
 
     def _pose(self, thing: int) -> Array:
         """(4, 4) the object's frame in the hand's; Bullet itself reports its inertial frame."""
@@ -210,17 +233,6 @@ class Physics:
             for point in found
             if point[9] > 0.0
         ]
-
-
-def read_body(collision: str | Path, properties: str | Path) -> RigidObject:
-    """The body of an object from its files; see `object_files`."""
-    numbers = read_properties(properties)
-    return RigidObject(
-        Path(collision),
-        float(numbers["mass_kg"]),
-        np.array(numbers["centre_of_mass_m"]),
-        np.array(numbers["inertia_kg_m2"]),
-    )
 
 
 @contextmanager

@@ -1,9 +1,11 @@
-"""Which grasp a session gets: its candidates go through physics by rank until one is valid."""
+"""Which grasp a session gets: its candidates go through physics by rank until one is valid and
+still has the shape of the person's grip. If none has, the valid one that left it least is taken.
+"""
 
 from __future__ import annotations
 
 import logging
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -16,8 +18,10 @@ from grasptypes.seeds import rng, seed
 from grasptypes.synthesis.candidates import Person
 from grasptypes.synthesis.energy import closeness
 from grasptypes.synthesis.grasps import ENERGY_TERMS
+from grasptypes.synthesis.grip_shape import ShapeRanges, ShapeSettings, deviation
 from grasptypes.synthesis.hand_model import FIRST_DISTAL, FIRST_PROXIMAL, HandModel
-from grasptypes.synthesis.physics import Contact, Physics
+from grasptypes.synthesis.holding import Contact
+from grasptypes.synthesis.physics import Physics
 from grasptypes.synthesis.search import Ranked, SearchSettings, Thing, search_session
 
 Array = NDArray[np.float64]
@@ -60,6 +64,16 @@ class Trial(NamedTuple):
     moved_m: float
     turned_rad: float
     contacts: list[Contact]
+    deviation: float = 0.0
+    """Of that hand from the shape of the person's grip, see `grip_shape.deviation`."""
+
+
+class Grip(NamedTuple):
+    """What a held hand is compared with."""
+
+    model: HandModel
+    ranges: ShapeRanges
+    settings: ShapeSettings
 
 
 class Problem(NamedTuple):
@@ -81,14 +95,16 @@ def synthesize(
     Returns:
         Tables that meet `grasps.GRASP_SCHEMA` and `grasps.ATTEMPT_SCHEMA`.
     """
-    grasps, attempts = [], []
+    grasps: list[Mapping[str, Any]] = []
+    attempts: list[Mapping[str, Any]] = []
     for number, person in enumerate(people(problem.contact_map), start=1):
         key = (problem.object_name, problem.task, number, problem.seed)
         ranked = search_session(hand.search, problem.thing, person, search, rng("synthesis", *key))
-        trials = list(_until_valid(ranked, problem.thing, hand.check, world, validity))
+        grip = Grip(hand.search, search.shapes[person.grip], search.grip_shape)
+        trials = list(_until_kept(ranked, problem.thing, hand.check, world, validity, grip))
+        best = _best(trials)
         rows = [_row(key, rank, ranked, trial, validity) for rank, trial in enumerate(trials)]
-        best = -1 if rows[-1]["valid"] else 0
-        attempts.extend(rows)
+        attempts.extend({**row, "chosen": rank == best} for rank, row in enumerate(rows))
         grasps.append(
             {**rows[best], "tries": len(rows), "grip": person.grip, **_contacts(trials[best])}
         )
@@ -136,14 +152,26 @@ def try_grasp(
     )
 
 
-def _until_valid(
-    ranked: Ranked, thing: Thing, model: HandModel, world: Physics, validity: ValiditySettings
-) -> Iterator[Trial]:
+def _until_kept(
+    ranked: Ranked, thing: Thing, model: HandModel, world: Physics, validity: ValiditySettings,
+    grip: Grip,
+) -> Iterator[Trial]:  # fmt: skip
     for T_object_hand, angles in zip(*ranked.hands, strict=True):
         trial = try_grasp(T_object_hand, angles, thing, model, world, validity)
-        yield trial
-        if not trial.reason:
+        poses = trial.T_object_hand @ kinematics.link_poses(trial.joint_angles_rad)
+        left = deviation(
+            grip.model, thing.grid, poses[None], trial.joint_angles_rad[None], grip.ranges,
+            grip.settings,
+        )  # fmt: skip
+        yield trial._replace(deviation=float(left[0]))
+        if not trial.reason and left[0] <= grip.settings.kept:
             return
+
+
+def _best(trials: Sequence[Trial]) -> int:
+    """The last trial if it kept the grip, else the valid one that left it least, else the first."""
+    valid = [rank for rank, trial in enumerate(trials) if not trial.reason]
+    return min(valid, key=lambda rank: trials[rank].deviation, default=0)
 
 
 def _flaw(
@@ -184,6 +212,7 @@ def _row(
         "penetration_m": trial.penetration_m,
         "moved_m": trial.moved_m,
         "turned_rad": trial.turned_rad,
+        "grip_deviation": trial.deviation,
         "valid": not trial.reason,
         "valid_strict": not trial.reason and trial.penetration_m <= validity.strict_depth_m,
         "reason": trial.reason,

@@ -6,7 +6,7 @@ from grasptypes.hand import kinematics
 from grasptypes.synthesis.closing import ClosingSettings, close_fingers, slide_in
 from grasptypes.synthesis.grip_shape import ShapeRanges, ShapeSettings, deviation
 
-SETTINGS = ShapeSettings(reach_m=0.025, closing_weight=3.0, weight=1.0)
+SETTINGS = ShapeSettings(reach_m=0.025, closing_weight=3.0, weight=1.0, kept=0.2)
 CLOSING = ClosingSettings(touch_m=0.0005)
 ANY = (-1.0, 1.0)
 

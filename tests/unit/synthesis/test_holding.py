@@ -10,23 +10,49 @@ SETTINGS = PhysicsSettings(**PARAMS["physics"]["test"])
 ANGLES = kinematics.couple(np.radians([30.0, 60.0, 60.0, 60.0]))
 
 
-def test_free_motors_close_at_their_speed_and_the_coupling_ratio() -> None:
+def released(finger: int) -> Motors:
+    motors = Motors(ANGLES, SETTINGS)
+    motors.release(finger)
+    return motors
+
+
+def test_one_motor_closes_base_and_tip_at_the_coupling_ratio() -> None:
     speeds, torques = Motors(ANGLES, SETTINGS).drive(ANGLES)
     third = kinematics.DISTAL_RATIO
     expected = SETTINGS.closing_speed_rad_s * np.array([0, 0, 1, 1, 1, third, third, third])
     np.testing.assert_allclose(speeds, expected)
-    tip = SETTINGS.fingertip_force_n * kinematics.DISTAL_LENGTH_M
-    np.testing.assert_allclose(torques[5:], tip)
-    assert np.all(torques[2:5] > torques[5:])
+    np.testing.assert_array_equal(torques[5:], 0.0)
+    step = 1e-6 * kinematics.couple([0.0, 1.0, 1.0, 1.0])
+    way = kinematics.fingertips(ANGLES + step) - kinematics.fingertips(ANGLES)
+    lever = np.linalg.norm(way, axis=1) / 1e-6
+    np.testing.assert_allclose(torques[2:5], SETTINGS.fingertip_force_n * lever, rtol=1e-4)
+
+
+def test_the_tip_of_a_released_finger_goes_on_alone() -> None:
+    speeds, torques = released(1).drive(ANGLES)
+    assert speeds[3] == 0.0
+    assert speeds[6] == SETTINGS.closing_speed_rad_s * (1 + kinematics.DISTAL_RATIO)
+    tip = kinematics.DISTAL_LENGTH_M
+    np.testing.assert_allclose(torques[6], SETTINGS.fingertip_force_n * tip)
+    assert torques[3] > 4 * SETTINGS.fingertip_force_n * tip  # withstands
+    assert torques[5] == torques[7] == 0.0
+
+
+def test_a_finger_planned_with_its_tip_ahead_is_released() -> None:
+    ahead = ANGLES.copy()
+    ahead[7] += 0.1
+    assert Motors(ahead, SETTINGS).coupled.tolist() == [True, True, False]
 
 
 def test_a_joint_that_is_driven_back_withstands_the_passive_force() -> None:
-    motors = Motors(ANGLES, SETTINGS)
+    motors = released(0)
     motors.drive(ANGLES + 0.2)
     speeds, torques = motors.drive(ANGLES + 0.1)
-    assert np.all(speeds[2:] > 0)
-    passive = SETTINGS.passive_force_n * kinematics.DISTAL_LENGTH_M
-    np.testing.assert_allclose(torques[5:], passive)
+    assert np.all(speeds[2:6] > 0)
+    np.testing.assert_allclose(torques[5], SETTINGS.passive_force_n * kinematics.DISTAL_LENGTH_M)
+    closing = Motors(ANGLES, SETTINGS).drive(ANGLES)[1]
+    more = SETTINGS.passive_force_n / SETTINGS.fingertip_force_n
+    np.testing.assert_allclose(torques[3:5], more * closing[3:5])
 
 
 def test_spread_returns_to_where_it_was_from_either_side() -> None:

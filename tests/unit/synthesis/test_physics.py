@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from synthesis_cases import PARAMS, URDF, ball_body, ball_grid, model, palm_at
 
+from grasptypes.hand import kinematics
 from grasptypes.synthesis.closing import ClosingSettings, close_fingers
 from grasptypes.synthesis.holding import PhysicsSettings
 from grasptypes.synthesis.physics import physics
@@ -37,12 +38,32 @@ def test_an_enclosed_ball_is_held_with_forces_that_carry_it(body) -> None:
     with physics(URDF, body, SETTINGS) as world:
         held = world.hold(*GOOD)
     assert not held.dropped
-    assert held.moved_m < 0.002
+    assert held.moved_m < 0.003
     assert len({contact.link for contact in held.contacts}) >= 3
     for contact in held.contacts:
         assert np.linalg.norm(contact.point_m) == pytest.approx(0.03, abs=0.002)
         assert contact.normal @ contact.point_m < 0
     assert max(contact.force_n for contact in held.contacts) > 1.0
+
+
+def test_fingertips_hold_a_ball_where_it_is_and_stay_coupled(body) -> None:
+    T, angles = grasp(0.09, 0.0)
+    with physics(URDF, body, SETTINGS) as world:
+        held = world.hold(T, angles)
+    assert not held.dropped
+    assert held.T_object_hand[2, 3] == pytest.approx(0.09, abs=0.005)
+    lag = held.joint_angles_rad[2:5] * kinematics.DISTAL_RATIO - held.joint_angles_rad[5:]
+    np.testing.assert_allclose(lag, 0.0, atol=0.012)
+
+
+def test_a_base_that_is_stopped_lets_its_tip_go_on(body) -> None:
+    T, angles = GOOD
+    with physics(URDF, body, SETTINGS) as world:
+        held = world.hold(T, angles)
+    bases = {contact.link for contact in held.contacts} & {3, 4, 5}
+    lead = held.joint_angles_rad[5:] - held.joint_angles_rad[2:5] * kinematics.DISTAL_RATIO
+    assert bases
+    assert lead.max() > 0.012
 
 
 def test_nothing_holds_without_friction_from_below_or_far_away(body) -> None:

@@ -84,11 +84,12 @@ def contact_map(sessions=3) -> ContactMap:
     )
 
 
-def synthesized(world, sessions=3):
+def synthesized(world, sessions=3, kept=3.0):
     settings = search_settings(PARAMS["synthesis"])
     settings = settings._replace(
         candidates=settings.candidates._replace(number=60),
         refinement=settings.refinement._replace(parents=4, rounds=1),
+        grip_shape=settings.grip_shape._replace(kept=kept),
     )
     problem = Problem("ball", "use", ball_thing(), contact_map(sessions), 0)
     return synthesize(problem, Hand(model(), model()), world, settings, VALIDITY)
@@ -106,6 +107,17 @@ def test_every_attempt_is_kept_and_the_first_valid_one_is_the_grasp(tmp_path) ->
     for name, table, schema in (("g", grasps, GRASP_SCHEMA), ("a", attempts, ATTEMPT_SCHEMA)):
         write_table(table, tmp_path / f"{name}.parquet", schema)
         assert len(read_table(tmp_path / f"{name}.parquet", schema)) == len(table)
+
+
+def test_of_valid_grasps_that_left_the_grip_the_one_that_left_it_least_is_chosen() -> None:
+    grasps, attempts = synthesized(World([False, True]), kept=-1.0)
+    for row in grasps.itertuples():
+        tried = attempts[attempts.session == row.session]
+        valid = tried[tried.valid]
+        assert len(valid) > 1
+        assert row.grip_deviation == valid.grip_deviation.min()
+        assert tried["rank"][tried.chosen].tolist() == [row.rank]
+        assert row.tries == len(tried)
 
 
 def test_without_a_valid_grasp_the_best_is_kept_with_its_reason() -> None:
