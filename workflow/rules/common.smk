@@ -4,7 +4,7 @@ from grasptypes.objects.own_objects import measured_map
 from grasptypes.predictors.weights import DOWNLOAD_SHA256_START, WEIGHTS_VARIABLE, chosen_weights
 from grasptypes.start_up import check_start
 from grasptypes.versions.job_records import is_recorded
-from grasptypes.versions.provenance import FileHash, code_hash
+from grasptypes.versions.provenance import CodeHash, FileHash
 
 try:
     HOLDS = check_start(config, SCHEMA, workflow.basedir, os.environ)
@@ -16,6 +16,7 @@ OBJECTS = [*config["objects"]["names"], *config["objects"]["own"]]
 TASKS = list(config["tasks"])
 
 file_hash = FileHash(".snakemake/file_hashes.json")
+code_hash = CodeHash(".snakemake/code_hashes.json")
 
 
 def settings(section, *left_out):

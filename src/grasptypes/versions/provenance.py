@@ -7,40 +7,99 @@ import functools
 import hashlib
 import json
 import os
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 from grasptypes.files import write_text
 
 _SOURCE = Path(__file__).resolve().parents[2]
 _PACKAGE = Path(__file__).resolve().parents[1].name
+# Memories of another version of this module may hold something else.
+_VERSION = hashlib.sha256(Path(__file__).read_bytes()).hexdigest()[:16]
 
 
-def code_hash(*scripts: str | Path) -> str:
+class FileMemory:
+    """What a function makes of a file, remembered by inode, size and times.
+
+    Args:
+        memory: a JSON file that keeps the results between calls; safe to delete.
+        function: takes a path, returns what JSON can hold.
+    """
+
+    def __init__(self, memory: str | Path, function: Callable[[Path], Any]) -> None:
+        self.memory = Path(memory)
+        self.function = function
+        try:
+            self.known: dict[str, list] = json.loads(self.memory.read_text())
+        except (OSError, ValueError):
+            self.known = {}
+
+    def __call__(self, path: str | Path) -> Any:
+        """The function's result for a file as it is now.
+
+        Raises:
+            FileNotFoundError: there is none.
+        """
+        status = os.stat(path)
+        stamp = [status.st_ino, status.st_size, status.st_mtime_ns, status.st_ctime_ns, _VERSION]
+        known = self.known.get(str(path))
+        if known is None or known[0] != stamp:
+            known = self.known[str(path)] = [stamp, self.function(Path(path))]
+            write_text(self.memory, json.dumps(self.known))
+        return known[1]
+
+
+class FileHash:
+    """SHA-256 of files; see :class:`FileMemory`."""
+
+    def __init__(self, memory: str | Path) -> None:
+        self.read = FileMemory(memory, _sha256)
+
+    def __call__(self, path: str | Path) -> str:
+        """The first 16 hex digits of the file's SHA-256, or ``"missing"``."""
+        try:
+            return str(self.read(path))
+        except FileNotFoundError:
+            return "missing"
+
+
+class CodeHash:
     """Hash of Python files and of every module of this package they import, directly or not.
 
     The syntax trees are hashed without their docstrings: comments, docstrings and layout change
-    nothing; a changed statement anywhere below does.
+    nothing; a changed statement anywhere below does. See :class:`FileMemory`.
     """
-    digest = hashlib.sha256()
-    for name, path in sorted((_name(path), path) for path in code_files(*scripts)):
-        digest.update(f"{name} {_read(path)[0]}\n".encode())
-    return digest.hexdigest()[:16]
+
+    def __init__(self, memory: str | Path) -> None:
+        self.read = FileMemory(memory, _read)
+
+    def __call__(self, *scripts: str | Path) -> str:
+        """The first 16 hex digits of a hash of the files' statements and of what they import."""
+        digest = hashlib.sha256()
+        for name, path in sorted((_name(path), path) for path in self.files(*scripts)):
+            digest.update(f"{name} {self.read(path)[0]}\n".encode())
+        return digest.hexdigest()[:16]
+
+    def files(self, *scripts: str | Path) -> set[Path]:
+        """The Python files and all of this package that they import, directly or not."""
+        todo = {Path(script).resolve() for script in scripts}
+        seen: set[Path] = set()
+        while todo:
+            path = todo.pop()
+            seen.add(path)
+            found = {_module_file(module) for module in self.read(path)[1]}
+            todo |= {file for file in found if file is not None} - seen
+        return seen
 
 
-def code_files(*scripts: str | Path) -> set[Path]:
-    """The Python files and all of this package that they import, directly or not."""
-    todo = {Path(script).resolve() for script in scripts}
-    seen: set[Path] = set()
-    while todo:
-        path = todo.pop()
-        seen.add(path)
-        todo |= _read(path)[1] - seen
-    return seen
+def _sha256(path: Path) -> str:
+    with path.open("rb") as file:
+        return hashlib.file_digest(file, "sha256").hexdigest()[:16]
 
 
-@functools.cache
-def _read(path: Path) -> tuple[str, set[Path]]:
-    """A digest of the file's statements, and the files of this package that it imports."""
+def _read(path: Path) -> tuple[str, list[str]]:
+    """A digest of a file's statements, and names of this package that it may import."""
     tree = ast.parse(path.read_text(encoding="utf-8"))
     modules: set[str] = set()
     for node in ast.walk(tree):  # the package uses absolute imports only
@@ -51,10 +110,8 @@ def _read(path: Path) -> tuple[str, set[Path]]:
         body = getattr(node, "body", None)
         if isinstance(body, list) and body and _is_docstring(body[0]):
             body[0].value.value = ""
-    files = {_module_file(name) for module in modules for name in _with_packages(module)}
-    return hashlib.sha256(ast.dump(tree).encode()).hexdigest(), {
-        file for file in files if file is not None
-    }
+    names = sorted({name for module in modules for name in _with_packages(module)})
+    return hashlib.sha256(ast.dump(tree).encode()).hexdigest(), names
 
 
 def _is_docstring(node: ast.AST) -> bool:
@@ -84,34 +141,3 @@ def _module_file(module: str) -> Path | None:
         if candidate.is_file():
             return candidate
     return None
-
-
-class FileHash:
-    """SHA-256 of files, remembered by inode, size and times so that unchanged ones are not reread.
-
-    Args:
-        memory: a JSON file that keeps the hashes between calls; safe to delete.
-    """
-
-    def __init__(self, memory: str | Path) -> None:
-        self.memory = Path(memory)
-        try:
-            self.known: dict[str, list] = json.loads(self.memory.read_text())
-        except (OSError, ValueError):
-            self.known = {}
-
-    def __call__(self, path: str | Path) -> str:
-        """The first 16 hex digits of the file's SHA-256, or ``"missing"``."""
-        try:
-            status = os.stat(path)
-        except FileNotFoundError:
-            return "missing"
-        stamp = [status.st_ino, status.st_size, status.st_mtime_ns, status.st_ctime_ns]
-        known = self.known.get(str(path))
-        if known is not None and known[0] == stamp:
-            return str(known[1])
-        with open(path, "rb") as file:
-            digest = hashlib.file_digest(file, "sha256").hexdigest()[:16]
-        self.known[str(path)] = [stamp, digest]
-        write_text(self.memory, json.dumps(self.known))
-        return digest

@@ -26,8 +26,8 @@ def checkout(tmp_path: Path) -> Path:
 
 
 def hash_of(checkout: Path) -> str:
-    code = "import sys; from grasptypes.versions.provenance import code_hash"
-    code += "; print(code_hash(sys.argv[1]))"
+    code = "import sys; from grasptypes.versions.provenance import CodeHash"
+    code += "; print(CodeHash('memory.json')(sys.argv[1]))"
     command = [sys.executable, "-c", code, str(checkout / "script.py")]
     environment = {
         **os.environ,
@@ -35,7 +35,7 @@ def hash_of(checkout: Path) -> str:
         "PYTHONDONTWRITEBYTECODE": "1",
     }
     return subprocess.run(
-        command, env=environment, capture_output=True, text=True, check=True
+        command, cwd=checkout, env=environment, capture_output=True, text=True, check=True
     ).stdout.strip()
 
 
