@@ -93,6 +93,7 @@ rule all:
         rules.tabulate_published.output,
         rules.tabulate_unseen.output,
         rules.compare_distribution.output,
+        rules.summarise_scores.output,
         expand(rules.picture_grasps.output, object=OBJECTS),
         rules.plot_grasps.output,
         rules.plot_rejected_grasps.output,

@@ -87,3 +87,25 @@ use rule tabulate_simulated as tabulate_unseen with:
         code=script_hash("tabulate_results"),
     message:
         "Tabulating the models on objects they have not seen"
+
+
+# What `dvc metrics show` and `dvc metrics diff` read.
+rule summarise_scores:
+    input:
+        known=[rules.tabulate_simulated.output.table, rules.tabulate_published.output.table],
+        unseen=rules.tabulate_unseen.output.table,
+        grasps=rules.label_grasps.output.grasps,
+        distribution=rules.compare_distribution.output.table,
+    output:
+        models=expand("reports/scores/{labels}/{model}.json", labels=SAMPLES, model=MODELS),
+        grasps="reports/scores/grasps.json",
+    log:
+        "logs/summarise_scores.log",
+    conda:
+        "../envs/grasptypes.yaml"
+    params:
+        code=script_hash("summarise_scores"),
+    message:
+        "Summarising the results"
+    script:
+        "../scripts/summarise_scores.py"

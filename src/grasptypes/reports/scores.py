@@ -1,0 +1,56 @@
+"""The results in short: one small file a model and label source, and one on the grasps."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import pandas as pd
+
+from grasptypes.reports.results import SHORT
+
+MEASURES = {short: measure.split("_")[-1] for measure, short in SHORT.items()}
+DIGITS = 4  # two beyond what a table of the paper shows
+
+
+def model_scores(
+    known: pd.DataFrame, unseen: pd.DataFrame, models: list[str]
+) -> dict[tuple[str, str], dict[str, Any]]:
+    """Each model's measures by label source and model.
+
+    Args:
+        known, unseen: tables of `results.RESULT_SCHEMA`, on known objects and on those left out.
+
+    Returns:
+        similarity, accuracy and precision, and the same below ``unseen`` where it was measured.
+    """
+    scores = {name: row for name, row in _measures(known).items() if name[1] in models}
+    for name, row in _measures(unseen).items():
+        if name in scores:
+            scores[name]["unseen"] = row
+    return scores
+
+
+def grasp_scores(dataset: pd.DataFrame, distribution: pd.DataFrame) -> Mapping[str, Any]:
+    """How many grasps are valid, and how alike their types' counts are to the published ones.
+
+    Args:
+        dataset: of `dataset.DATASET_SCHEMA`.
+        distribution: of `distribution.DISTRIBUTION_SCHEMA`, whose last row is the mean.
+    """
+    return {
+        "tried": len(dataset),
+        "valid": int((dataset.GraspType != "Invalid").sum()),
+        "similarity": round(float(distribution.similarity.iloc[-1]), DIGITS),
+    }
+
+
+def _measures(table: pd.DataFrame) -> dict[tuple[str, str], dict[str, Any]]:
+    """The means of a table's rows by label source and model."""
+    return {
+        (str(row["labels"]), str(row["model"])): {
+            measure: round(float(row[f"{short}_mean"]), DIGITS)
+            for short, measure in MEASURES.items()
+        }
+        for row in table.dropna(subset=["labels"]).to_dict("records")
+    }

@@ -1,0 +1,36 @@
+"""Write the results in short, for DVC to show and to compare between versions."""
+
+from pathlib import Path
+
+import pandas as pd
+
+from grasptypes.files import write_json
+from grasptypes.jobs import job
+from grasptypes.labels.dataset import DATASET_SCHEMA
+from grasptypes.labels.distribution import DISTRIBUTION_SCHEMA
+from grasptypes.reports.scores import grasp_scores, model_scores
+from grasptypes.tables import read_table
+
+
+def summarise_scores(known: list[str], unseen: str, models: dict[tuple[str, str], str]) -> None:
+    """Write one file a label source and model.
+
+    Args:
+        known: tables on known objects, one a label source.
+        unseen: the table on objects that were left out.
+        models: file to write, by label source and model.
+    """
+    table = pd.concat([pd.read_csv(path) for path in known], ignore_index=True)
+    names = sorted({model for _, model in models})
+    scores = model_scores(table, pd.read_csv(unseen), names)
+    for name, path in models.items():
+        write_json(path, scores[name])
+
+
+if __name__ == "__main__":
+    with job(snakemake.log):
+        files = {(Path(p).parent.name, Path(p).stem): p for p in snakemake.output.models}
+        summarise_scores(snakemake.input.known, snakemake.input.unseen, files)
+        dataset = read_table(snakemake.input.grasps, DATASET_SCHEMA)
+        distribution = read_table(snakemake.input.distribution, DISTRIBUTION_SCHEMA)
+        write_json(snakemake.output.grasps, grasp_scores(dataset, distribution))
