@@ -14,7 +14,7 @@ export PATH := $(BIN):$(PATH)
 export DVC_NO_ANALYTICS := 1
 export MLFLOW_DISABLE_TELEMETRY := true
 
-.PHONY: help setup table1 demo test bad-input test-faults verify lint format doctor publish ui report clean lock
+.PHONY: help setup table1 demo test acceptance bad-input test-faults verify lint format doctor publish ui report clean lock
 
 help: ## list the targets
 	@awk -F ':.*## ' '/^[a-z0-9-]+:.*## / {printf "  make %-12s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -34,6 +34,9 @@ demo: setup ## the whole pipeline on 2 objects, in build/demo
 
 test: setup ## the default tests
 	pytest -n $(JOBS)
+
+acceptance: setup ## that Snakemake and DVC agree whatever happens, on 2 objects; about a quarter of an hour
+	pytest tests/acceptance -m slow
 
 bad-input: setup ## try every mistake a user can make and write docs/bad_input.md
 	python -W ignore tests/bad_input/table.py

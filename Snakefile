@@ -80,10 +80,8 @@ onsuccess:
 
 
 # Without a job to do there is no `onsuccess`, yet a killed run may have left publishing half done.
-@atexit.register
-def finish_publishing():
-    if workflow.is_main_process and running_lock and not workflow.dryrun:
-        take_up_publishing(Path.cwd())
+if workflow.is_main_process and running_lock:
+    atexit.register(lambda: workflow.dryrun or take_up_publishing(Path.cwd()))
 
 
 rule all:

@@ -100,6 +100,10 @@ class Repository:
     def snakemake_is_clean(self, target: str = TARGET) -> bool:
         return "Nothing to be done" in self.run("snakemake", "-n", target)
 
+    def is_clean(self) -> bool:
+        """Whether both tools have nothing to do."""
+        return self.snakemake_is_clean("all") and self.dvc_is_clean()
+
     def dvc_is_clean(self) -> bool:
         return "up to date" in self.dvc("status")
 
