@@ -42,7 +42,7 @@ bad-input: setup ## try every mistake a user can make and write docs/bad_input.m
 	python -W ignore tests/bad_input/table.py
 
 test-faults: setup ## kill KILLS runs at random moments, then full disks, missing libraries and the like
-	python tests/workflow/kill_runs.py build/faults --kills $(KILLS)
+	python tests/workflow/kill_runs.py build/faults --runs $(KILLS)
 	pytest -m slow tests/workflow/test_faults.py
 
 verify: setup ## compute everything twice from nothing, -j1 and -j2, and compare every file; VERIFY="--params tests/small.yaml"

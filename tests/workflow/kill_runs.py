@@ -1,7 +1,8 @@
 """Kill runs of the small configuration at random moments, start them again, and compare.
 
-``python tests/workflow/kill_runs.py FOLDER --kills 20`` prints a line a kill; the exit status is 1
-if any of them left a trace. FOLDER keeps the undisturbed run, which later calls compare with.
+``python tests/workflow/kill_runs.py FOLDER --runs 20`` prints a line a run; the exit status is 1 if
+a kill left a trace. ``--kills 4`` kills each run and its restarts four times in all. FOLDER keeps
+the undisturbed run, which later calls compare with.
 """
 
 from __future__ import annotations
@@ -106,19 +107,24 @@ def faults(repository: Repository, expected: Repository) -> list[str]:
     return found
 
 
-def try_kill(folder: Path, seed: int, number: int) -> list[str]:
-    """One kill; prints when it was and what came of it."""
+def disturb(folder: Path, seed: int, number: int, kills: int) -> list[str]:
+    """Kill one run, and its restarts, that many times in all; prints when, and what came of it."""
     expected, whole_s = undisturbed(folder)
-    moment_s = random.Random(f"{seed} {number}").uniform(0, whole_s)
-    repository = Repository(folder / "fresh").copy(folder / f"kill_{number}")
-    while not kill_after(repository, moment_s):  # today the machine is faster
-        shutil.rmtree(repository.path)
-        Repository(folder / "fresh").copy(repository.path)
-        moment_s *= 0.8
-    there = len(checksums(repository.path))
+    draw = random.Random(f"{seed} {number}")
+    repository = Repository(folder / "fresh").copy(folder / f"run_{number}")
+    told: list[str] = []
+    while len(told) < kills:
+        # Moments of the whole run, or of its part that is left to each kill on average.
+        moment_s = draw.uniform(0, whole_s / kills)
+        if kill_after(repository, moment_s):
+            told.append(f"{moment_s:.1f} s ({len(checksums(repository.path))} files)")
+        else:  # today the machine is faster: once more from nothing
+            told.clear()
+            shutil.rmtree(repository.path)
+            Repository(folder / "fresh").copy(repository.path)
     found = faults(repository, expected)
-    files = f"{there} of {len(checksums(expected.path))} files"
-    line = f"kill {number} after {moment_s:5.1f} of {whole_s:.1f} s, {files}: "
+    moments, files = ", ".join(told), len(checksums(expected.path))
+    line = f"run {number} of {whole_s:.0f} s and {files} files, killed after {moments}: "
     sys.stdout.write(line + ("; ".join(found) or "no trace") + "\n")
     sys.stdout.flush()
     if not found:
@@ -130,15 +136,19 @@ def main() -> None:
     """Command line."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("folder", type=Path)
-    parser.add_argument("--kills", type=int, default=20)
-    parser.add_argument("--first", type=int, default=0, help="number of the first kill")
+    parser.add_argument("--runs", type=int, default=20)
+    parser.add_argument("--kills", type=int, default=1, help="of each run")
+    parser.add_argument("--first", type=int, default=0, help="number of the first run")
     parser.add_argument("--seed", type=int, default=0)
     asked = parser.parse_args()
     folder = asked.folder.resolve()
     folder.mkdir(parents=True, exist_ok=True)
-    numbers = range(asked.first, asked.first + asked.kills)
-    bad = [number for number in numbers if try_kill(folder, asked.seed, number)]
-    sys.stdout.write(f"{len(numbers) - len(bad)} of {len(numbers)} kills left no trace\n")
+    numbers = range(asked.first, asked.first + asked.runs)
+    bad = [number for number in numbers if disturb(folder, asked.seed, number, asked.kills)]
+    sys.stdout.write(
+        f"{(len(numbers) - len(bad)) * asked.kills} of {len(numbers) * asked.kills} kills "
+        "left no trace\n"
+    )
     sys.exit(bool(bad))
 
 
