@@ -36,6 +36,26 @@ def test_bad_params_end_with_one_line(
     assert not (repository.path / "data").exists()
 
 
+@pytest.mark.parametrize(
+    ("content", "expected"),
+    [
+        ("", "must hold a mapping"),
+        ("seed: [1\n", "line 2: not valid YAML"),
+        ("__use_yte__: true\n?open('ran', 'w'): 1\n", "'__use_yte__' were unexpected"),
+    ],
+)
+def test_a_file_that_is_no_params_never_reaches_snakemake(
+    repository: Repository, content: str, expected: str
+) -> None:
+    (repository.path / "params.yaml").write_text(content)
+    output = repository.run("snakemake", "-n", check=False)
+    lines = [line for line in output.splitlines() if "profile" not in line]
+    assert len(lines) == 1, output
+    assert lines[0].startswith("error: params.yaml: ")
+    assert expected in lines[0]
+    assert not (repository.path / "ran").exists()
+
+
 def test_a_cache_of_links_is_refused(repository: Repository) -> None:
     repository.dvc("config", "cache.type", "hardlink")
     output = repository.run("snakemake", "-n", check=False)
