@@ -32,6 +32,13 @@ demo: setup ## the whole pipeline on 2 objects, in build/demo
 	python -m grasptypes.versions.checkout . build/demo --params tests/small.yaml
 	cd build/demo && snakemake -j$(JOBS) reports/table1.csv && cat reports/table1.md
 
+.PHONY: generalisation scaling
+generalisation: setup ## what more shapes of every object buy on unseen objects: reports/generalisation.csv
+	snakemake -j$(JOBS) reports/generalisation.csv
+
+scaling: setup ## time and memory against the number of objects: reports/scaling.csv
+	python benchmarks/scaling.py
+
 test: setup ## the default tests
 	pytest -n $(JOBS)
 

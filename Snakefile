@@ -49,6 +49,7 @@ include: "workflow/rules/renders.smk"
 include: "workflow/rules/learning.smk"
 include: "workflow/rules/tables.smk"
 include: "workflow/rules/details.smk"
+include: "workflow/rules/generalisation.smk"
 
 
 wildcard_constraints:

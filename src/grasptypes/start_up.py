@@ -9,7 +9,9 @@ from typing import Any
 from grasptypes.contact_maps.affinities import Hold, read_affinities
 from grasptypes.labels.published_source import check_published
 from grasptypes.objects.own_objects import check_every_hold, check_own_objects
+from grasptypes.objects.variants import check_variation
 from grasptypes.params import validate_params
+from grasptypes.predictors.own_tasks import check_tasks
 from grasptypes.versions.guard import check_cache_links
 
 
@@ -36,6 +38,8 @@ def check_start(
     check_cache_links(root)
     validate_params(params, schema)
     objects, tasks = params["objects"], list(params["tasks"])
+    check_tasks(params["tasks"])
+    check_variation(objects)
     check_own_objects(objects, tasks)
     table = params["contact_maps"]["affinities"]
     catalogue = schema["properties"]["objects"]["properties"]["names"]["items"]["enum"]

@@ -1,19 +1,23 @@
 # What all rules share: the checked parameters, the names to loop over, and content hashes.
+from grasptypes.labels.label_sources import label_sources
 from grasptypes.labels.published_source import FETCHED, published_address, published_path
 from grasptypes.objects.own_objects import measured_map
+from grasptypes.objects.variants import all_objects, all_variants, base_of
 from grasptypes.predictors.weights import DOWNLOAD_SHA256_START, WEIGHTS_VARIABLE, chosen_weights
 from grasptypes.start_up import check_start
 from grasptypes.versions.job_records import is_recorded
 from grasptypes.versions.provenance import CodeHash, FileHash
 
+PUBLISHED_COUNTS = "assets/published_labels.csv"
+
 try:
     HOLDS = check_start(config, SCHEMA, workflow.basedir, os.environ)
     PUBLISHED_CSV = published_path(os.environ) or []
+    OBJECTS, VARIANTS = all_objects(config["objects"]), all_variants(config["objects"])
+    TASKS = list(config["tasks"])
+    KNOWN = label_sources(config["labels"], PUBLISHED_COUNTS, OBJECTS, TASKS)
 except InputError as error:
     sys.exit(f"error: {error}")
-
-OBJECTS = [*config["objects"]["names"], *config["objects"]["own"]]
-TASKS = list(config["tasks"])
 
 file_hash = FileHash(".snakemake/file_hashes.json")
 code_hash = CodeHash(".snakemake/code_hashes.json")
@@ -45,10 +49,40 @@ def hand_hashes(folder):
 def object_settings(wildcards):
     """What a catalogue object or an own one is made with; its contact maps are not."""
     own = config["objects"]["own"].get(wildcards.object)
+    others = ["names", "variants", "variation", "variant_views", "comparison"]
     if own is None:
-        return settings("objects", "names", "own", "import", "comparison")
+        return settings("objects", *others, "own", "import")
     block = {key: value for key, value in own.items() if key != "contact_maps"}
-    return settings("objects", "names", "scale", "comparison") | {"own": block}
+    return settings("objects", *others, "scale") | {"own": block}
+
+
+def variant_settings():
+    """What a variant is made with."""
+    kept = ("scale", "variation", "resolution")
+    return {key: config["objects"][key] for key in kept}
+
+
+def variant_views():
+    """How many pictures the trials need of each variant of an object, the first variant's first."""
+    trials = config["generalisation"]["trials"]
+    most = max(trial["shapes"] for trial in trials)
+    return [
+        max(trial["views"] for trial in trials if trial["shapes"] > number)
+        for number in range(1, most)
+    ]
+
+
+def varied_objects(labels):
+    """The catalogue objects that a label source knows."""
+    return [name for name in KNOWN[labels].objects if name in config["objects"]["names"]]
+
+
+def render_settings(wildcards):
+    """What pictures are taken with; variants have fewer of them."""
+    taken = settings("renders", "sheet")
+    if wildcards.object in VARIANTS:
+        taken["views"] = config["objects"]["variant_views"]
+    return taken
 
 
 def own_mesh(wildcards):
@@ -66,7 +100,7 @@ def contact_settings(wildcards):
     if measured_input(wildcards):
         unit = config["objects"]["own"][wildcards.object]["unit"]
         return settings("contact_maps", "affinities", "population", "tries") | {"unit": unit}
-    holds = HOLDS[wildcards.object, wildcards.task]
+    holds = HOLDS[base_of(wildcards.object), wildcards.task]
     return settings("contact_maps", "measured") | {"holds": holds}
 
 
@@ -83,9 +117,23 @@ def measuring_hashes():
 
 
 def without_scan():
-    """Objects that the folder of reference meshes lacks; none if there is no folder."""
+    """Catalogue objects that the folder of reference meshes lacks; none if there is no folder."""
     scans = {Path(path).stem for path in reference_meshes()}
-    return [name for name in OBJECTS if name not in scans] if scans else []
+    return [name for name in config["objects"]["names"] if name not in scans] if scans else []
+
+
+def learning_inputs(wildcards):
+    """What a model learns from: features, or pictures if its backbone is trained too."""
+    frozen = config["predictors"]["finetune"] == "none"
+    made_by = (
+        rules.extract_features.output.features if frozen else rules.render_object.output.pictures
+    )
+    return expand(made_by, object=KNOWN[wildcards.labels].objects)
+
+
+def learning_tasks(wildcards):
+    """The tasks that the label source knows, each with its colour shift."""
+    return {task: config["tasks"][task] for task in KNOWN[wildcards.labels].tasks}
 
 
 def weights_choice(record="data/backbone.json"):

@@ -66,7 +66,7 @@ rule label_grasps:
 rule compare_distribution:
     input:
         samples=rules.label_grasps.output.samples,
-        published="assets/published_labels.csv",
+        published=PUBLISHED_COUNTS,
     output:
         table=report(
             "reports/distribution.csv",

@@ -2,7 +2,6 @@
 MODELS = ["no_task", "task_vector", "task_in_image", "ignores_task"]
 SAMPLES = {"simulated": "data/samples.csv", "published": "data/published_samples.csv"}
 LABELS = config["labels"]
-FROZEN = config["predictors"]["finetune"] == "none"
 
 
 wildcard_constraints:
@@ -12,7 +11,7 @@ wildcard_constraints:
 
 rule label_published:
     input:
-        counts="assets/published_labels.csv",
+        counts=PUBLISHED_COUNTS,
     output:
         samples=SAMPLES["published"],
     log:
@@ -20,9 +19,9 @@ rule label_published:
     conda:
         "../envs/grasptypes.yaml"
     params:
-        objects=OBJECTS,
-        tasks=TASKS,
-        published=hashes("assets/published_labels.csv"),
+        objects=KNOWN["published"].objects,
+        tasks=KNOWN["published"].tasks,
+        published=hashes(PUBLISHED_COUNTS),
         code=script_hash("label_published"),
     message:
         "Turning the published counts into samples"
@@ -89,16 +88,9 @@ rule split_folds:
         "../scripts/split_folds.py"
 
 
-# What a model learns from: features, or pictures if its backbone is trained too.
-LEARNING_INPUTS = expand(
-    rules.extract_features.output.features if FROZEN else rules.render_object.output.pictures,
-    object=OBJECTS,
-)
-
-
 rule train_predictor:
     input:
-        inputs=LEARNING_INPUTS,
+        inputs=learning_inputs,
         samples=lambda wildcards: SAMPLES[wildcards.labels],
         folds=rules.split_folds.output.folds,
         backbone=rules.prepare_backbone.output.record,
@@ -121,7 +113,7 @@ rule train_predictor:
         "../envs/grasptypes.yaml"
     params:
         settings=settings("predictors"),
-        tasks=config["tasks"],
+        tasks=learning_tasks,
         seed=config["seed"],
         code=script_hash("train_predictor"),
     message:
@@ -132,7 +124,7 @@ rule train_predictor:
 
 rule leave_out_objects:
     input:
-        inputs=LEARNING_INPUTS,
+        inputs=learning_inputs,
         samples=lambda wildcards: SAMPLES[wildcards.labels],
         folds=rules.split_folds.output.folds,
         backbone=rules.prepare_backbone.output.record,
@@ -146,7 +138,7 @@ rule leave_out_objects:
         "../envs/grasptypes.yaml"
     params:
         settings=settings("predictors"),
-        tasks=config["tasks"],
+        tasks=learning_tasks,
         seed=config["seed"],
         code=script_hash("leave_out_objects"),
     message:

@@ -14,6 +14,8 @@ rule prepare_object:
         "logs/prepare_object/{object}.log",
     benchmark:
         "logs/benchmarks/prepare_object/{object}.tsv"
+    wildcard_constraints:
+        object="|".join(name for name in OBJECTS if name not in VARIANTS),
     conda:
         "../envs/grasptypes.yaml"
     params:
@@ -24,6 +26,32 @@ rule prepare_object:
         "Preparing {wildcards.object}"
     script:
         "../scripts/prepare_object.py"
+
+
+rule prepare_variant:
+    output:
+        visual="data/objects/{object}/visual.glb",
+        surface="data/objects/{object}/surface.npz",
+        collision="data/objects/{object}/collision.obj",
+        distance_grid="data/objects/{object}/distance_grid.npz",
+        properties="data/objects/{object}/properties.json",
+    log:
+        "logs/prepare_variant/{object}.log",
+    benchmark:
+        "logs/benchmarks/prepare_variant/{object}.tsv"
+    wildcard_constraints:
+        # No object of this name, if there are no variants.
+        object="|".join(VARIANTS) or "none",
+    conda:
+        "../envs/grasptypes.yaml"
+    params:
+        settings=variant_settings(),
+        seed=config["seed"],
+        code=script_hash("prepare_variant"),
+    message:
+        "Preparing {wildcards.object}"
+    script:
+        "../scripts/prepare_variant.py"
 
 
 rule map_contacts:

@@ -14,7 +14,7 @@ rule render_object:
     conda:
         "../envs/grasptypes.yaml"
     params:
-        settings=settings("renders", "sheet"),
+        settings=render_settings,
         seed=config["seed"],
         code=script_hash("render_object"),
     message:

@@ -1,4 +1,4 @@
-"""Test one model on objects it was not trained on, one object left out at a time."""
+"""Test one model on objects it was not trained on, one left out at a time with its variants."""
 
 from collections.abc import Mapping
 from typing import Any
@@ -6,9 +6,9 @@ from typing import Any
 import torch
 
 from grasptypes.jobs import job
+from grasptypes.predictors.leaving_out import members_by_object
 from grasptypes.predictors.problem import read_problem
 from grasptypes.predictors.protocol import try_splits
-from grasptypes.predictors.training import members_by_group
 from grasptypes.reports.results import METRIC_SCHEMA, with_source
 from grasptypes.tables import write_table
 
@@ -23,7 +23,7 @@ def leave_out_objects(
 ) -> None:
     """Write the metrics of the model `name` (labels, model), one row an object and seed."""
     problem = read_problem(inputs, name, tasks, settings)
-    members = members_by_group(problem.examples.index["object"], settings["seeds"])
+    members = members_by_object(problem.examples.index["object"], settings["seeds"])
     key = ("unseen", name[1], seed)
     outcome = try_splits(problem.examples, members, problem.recipe, key, problem.backbone)
     metrics = with_source(outcome.metrics, name, problem.record, settings["finetune"])

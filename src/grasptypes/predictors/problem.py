@@ -69,8 +69,8 @@ def read_problem(
     """The problem of a label source and model.
 
     Args:
-        files: ``inputs`` (features or pictures, a file an object), ``samples``, ``folds`` and
-            ``backbone`` (its record).
+        files: ``inputs`` (features or pictures, a file an object to learn from), ``samples``,
+            ``folds`` and ``backbone`` (its record).
         name: label source and model.
         tasks: the ``tasks`` section of params.yaml.
         settings: the ``predictors`` section.
@@ -80,12 +80,9 @@ def read_problem(
     """
     labels, model = name
     record, recipe = read_backbone_record(files["backbone"]), recipe_of(settings)
-    examples = assemble(
-        VARIANTS[model],
-        read_inputs(files["inputs"], tasks),
-        read_samples(files["samples"]),
-        read_table(files["folds"], FOLD_SCHEMA),
-        list(tasks),
-    )
+    inputs, folds = read_inputs(files["inputs"], tasks), read_table(files["folds"], FOLD_SCHEMA)
+    # Not every label source knows every object that was split into folds.
+    folds = folds[folds["object"].isin(inputs)]
+    examples = assemble(VARIANTS[model], inputs, read_samples(files["samples"]), folds, list(tasks))
     backbone = None if recipe.frozen else load_backbone(recorded_weights(record), record.input_px)
     return Problem(labels, model, tasks, examples, recipe, record, backbone)

@@ -14,6 +14,7 @@ from collections.abc import Collection
 from pathlib import Path
 
 from grasptypes.errors import InputError
+from grasptypes.objects.variants import all_objects
 from grasptypes.params import load_params
 from grasptypes.versions.job_records import RECORDS, recorded_result
 
@@ -86,8 +87,7 @@ def main() -> None:
         params = load_params("params.yaml", "workflow/schemas/params.schema.yaml")
     except InputError as error:
         sys.exit(f"error: {error}")
-    objects = [*params["objects"]["names"], *params["objects"]["own"]]
-    for path in prune(".", objects, list(params["tasks"])):
+    for path in prune(".", all_objects(params["objects"]), list(params["tasks"])):
         logger.info("removed %s, which is no longer in params.yaml", path)
 
 

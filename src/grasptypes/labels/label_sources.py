@@ -1,0 +1,49 @@
+"""Which objects and tasks a label source knows: the published labels know the authors' alone."""
+
+from __future__ import annotations
+
+import csv
+from collections.abc import Collection
+from dataclasses import dataclass
+from pathlib import Path
+
+from grasptypes.errors import InputError
+
+
+@dataclass(frozen=True)
+class Known:
+    """Objects and tasks of the parameters that have labels, in the order of the parameters."""
+
+    objects: list[str]
+    tasks: list[str]
+
+
+def label_sources(
+    used: Collection[str],
+    counts: str | Path,
+    objects: Collection[str],
+    tasks: Collection[str],
+    path: str | Path = "params.yaml",
+) -> dict[str, Known]:
+    """What is learned from each label source.
+
+    Physics labels every object for every task. Results on published labels cover what the authors
+    had: own objects, variants and further tasks are not in them.
+
+    Args:
+        used: label sources that tables are made for.
+        counts: CSV of the published counts, a row an object and task.
+        objects, tasks: of the parameters.
+        path: of the parameters.
+
+    Raises:
+        InputError: the published labels are used and there is nothing to learn from them.
+    """
+    with open(counts, encoding="utf-8", newline="") as file:
+        rows = {(row["object"], row["task"]) for row in csv.DictReader(file)}
+    known_tasks = [task for task in tasks if any((name, task) in rows for name in objects)]
+    known = [name for name in objects if any((name, task) in rows for task in tasks)]
+    if "published" in used and not known:
+        message = "'published' has none of these objects and tasks; leave it out"
+        raise InputError(path, "labels", message)
+    return {"simulated": Known([*objects], [*tasks]), "published": Known(known, known_tasks)}

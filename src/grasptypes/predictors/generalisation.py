@@ -1,0 +1,213 @@
+"""What more shapes of every object buy on an object that was left out in all its shapes."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import pandas as pd
+import pandera.pandas as pa
+
+from grasptypes.labels.samples import labels_of
+from grasptypes.objects.variants import base_of, variant_names
+from grasptypes.predictors.ceilings import ceilings
+from grasptypes.predictors.examples import Examples, assemble
+from grasptypes.predictors.leaving_out import members_by_object
+from grasptypes.predictors.predictor import VARIANTS
+from grasptypes.predictors.protocol import Recipe, try_splits
+from grasptypes.reports.results import METRIC_SCHEMA, SHORT
+
+Inputs = dict[str, dict[str, np.ndarray]]
+
+
+@dataclass(frozen=True)
+class Trial:
+    """How much is trained on.
+
+    Attributes:
+        shapes: of every object, itself among them.
+        views: pictures of every shape.
+    """
+
+    shapes: int
+    views: int
+
+
+TRIAL_SCHEMA = pa.DataFrameSchema(
+    {
+        **METRIC_SCHEMA.columns,
+        "shapes": pa.Column(int, pa.Check.ge(1)),
+        "views": pa.Column(int, pa.Check.ge(1)),
+    },
+    strict=True,
+    coerce=True,
+    unique=["labels", "model", "shapes", "views", "group", "seed"],
+)
+_SHARE = pa.Check.in_range(0, 1)
+GENERALISATION_SCHEMA = pa.DataFrameSchema(
+    {
+        "labels": pa.Column(str),
+        "model": pa.Column(str, pa.Check.isin(list(VARIANTS))),
+        "shapes": pa.Column(int, pa.Check.ge(1)),
+        "views": pa.Column(int, pa.Check.ge(1)),
+        "n_train": pa.Column(float, description="examples, mean over the objects left out"),
+        "n_objects": pa.Column(int, pa.Check.ge(2)),
+        "n_seeds": pa.Column(int, pa.Check.ge(1)),
+        **{f"{short}_mean": pa.Column(float, _SHARE) for short in SHORT.values()},
+        "sim_sd": pa.Column(float, description="over the objects left out"),
+        "sim_gain": pa.Column(float, nullable=True, description="over one shape, pictures equal"),
+        "sim_gain_se": pa.Column(float, nullable=True, description="over the objects left out"),
+        "constant_sim": pa.Column(float, _SHARE, description="of the best constant answer"),
+        "backbone": pa.Column(str),
+        "weights": pa.Column(str),
+    },
+    strict=True,
+    ordered=True,
+    unique=["labels", "model", "shapes", "views"],
+)
+
+
+def try_trial(
+    objects: Inputs,
+    variants: Inputs,
+    samples: pd.DataFrame,
+    model: str,
+    tasks: Sequence[str],
+    trial: Trial,
+    recipe: Recipe,
+    seeds: int,
+    seed: int,
+) -> pd.DataFrame:
+    """Leave out every object in turn, test on all its own pictures.
+
+    Args:
+        objects: object to encoding to (V, F) features.
+        variants: the same of variants, whose labels are those of their objects.
+        samples: of :mod:`grasptypes.labels.samples`, of the objects.
+        model: name of the model.
+        tasks: in the order of the task vector.
+        seeds, seed: repetitions, and the workflow's number.
+
+    Returns:
+        one row an object and repetition, as :func:`grasptypes.reports.results.score` gives them.
+    """
+    examples = trial_examples(objects, variants, samples, model, tasks, trial)
+    index = examples.index
+    members = members_by_object(index["object"], seeds, index["view"].to_numpy() < trial.views)
+    key = ("shapes", model, trial.shapes, trial.views, seed)
+    return try_splits(examples, members, recipe, key).metrics
+
+
+def trial_examples(
+    objects: Inputs,
+    variants: Inputs,
+    samples: pd.DataFrame,
+    model: str,
+    tasks: Sequence[str],
+    trial: Trial,
+) -> Examples:
+    """All pictures of the objects and the first ones of their first variants."""
+    inputs = dict(objects)
+    for name in objects:
+        for variant in variant_names(name, trial.shapes - 1):
+            inputs[variant] = {
+                encoding: views[: trial.views] for encoding, views in variants[variant].items()
+            }
+    # Nothing is split into folds here: objects are left out.
+    folds = pd.concat(
+        pd.DataFrame({"object": name, "view": np.arange(_views(shown)), "fold": 0})
+        for name, shown in inputs.items()
+    )
+    labelled = inherit(samples, list(inputs))
+    return assemble(VARIANTS[model], inputs, labelled, folds, list(tasks))
+
+
+def _views(shown: Mapping[str, np.ndarray]) -> int:
+    return len(next(iter(shown.values())))
+
+
+def inherit(samples: pd.DataFrame, names: Sequence[str]) -> pd.DataFrame:
+    """Samples of objects and variants, a variant's being those of its object."""
+    of_base = dict(list(samples.groupby("object")))
+    return pd.concat([of_base[base_of(name)].assign(object=name) for name in names])
+
+
+def summarize(trials: pd.DataFrame, constant: Mapping[tuple[str, str], float]) -> pd.DataFrame:
+    """One row a label source, model and trial: a table of :data:`GENERALISATION_SCHEMA`.
+
+    Args:
+        trials: of :data:`TRIAL_SCHEMA`.
+        constant: label source and model to the similarity of the best constant answer.
+    """
+    keys = ["labels", "model", "shapes", "views"]
+    rows = []
+    for name, group in trials.groupby(keys, sort=True):
+        labels, model, shapes, views = name
+        by_object = group.groupby("group")[list(SHORT)].mean()
+        gain = _gain(trials, group, int(shapes) * int(views)) if shapes > 1 else None
+        rows.append(
+            dict(zip(keys, name, strict=True))
+            | {"n_train": group["n_train"].mean(), "n_objects": len(by_object)}
+            | {"n_seeds": group["seed"].nunique()}
+            | {f"{short}_mean": by_object[long].mean() for long, short in SHORT.items()}
+            | {"sim_sd": by_object["angular_similarity"].std()}
+            | {"sim_gain": np.nan if gain is None else gain.mean()}
+            | {"sim_gain_se": np.nan if gain is None else gain.sem()}
+            | {"constant_sim": constant[str(labels), str(model)]}
+            | {key: group[key].iloc[0] for key in ("backbone", "weights")}
+        )
+    table = pd.DataFrame(rows)
+    order = {model: place for place, model in enumerate(VARIANTS)}
+    table = table.sort_values(keys, key=lambda c: c.map(order) if c.name == "model" else c)
+    return table[list(GENERALISATION_SCHEMA.columns)].round(6).reset_index(drop=True)
+
+
+def constant_similarity(samples: pd.DataFrame) -> dict[str, float]:
+    """Model to the similarity of the best constant answer to what it is asked.
+
+    Args:
+        samples: of :mod:`grasptypes.labels.samples`.
+    """
+    labels = labels_of(samples)
+    joint = np.asarray(labels.any(axis=1, keepdims=True))
+    best = {
+        asked: ceilings(known).loc["best_constant", "angular_similarity"]
+        for asked, known in ((False, labels), (True, joint))
+    }
+    return {model: float(best[variant.joint_labels]) for model, variant in VARIANTS.items()}
+
+
+def _gain(trials: pd.DataFrame, group: pd.DataFrame, pictures: int) -> pd.Series | None:
+    """Similarity over that of one shape shown in as many pictures, an object left out each."""
+    first = group.iloc[0]
+    alone = trials[
+        (trials["labels"] == first["labels"])
+        & (trials["model"] == first["model"])
+        & (trials["shapes"] == 1)
+        & (trials["views"] == pictures)
+    ]
+    if alone.empty:
+        return None
+    measure = "angular_similarity"
+    return group.groupby("group")[measure].mean() - alone.groupby("group")[measure].mean()
+
+
+def describe(table: pd.DataFrame) -> str:
+    """One sentence on what the shapes bought.
+
+    Args:
+        table: of :data:`GENERALISATION_SCHEMA`.
+    """
+    most = table[table["sim_gain"].notna()]
+    most = most[most["shapes"] == most["shapes"].max()]
+    gains = ", ".join(
+        f"{row.labels} {row.model} {row.sim_gain:+.3f} ± {row.sim_gain_se:.3f}"
+        for row in most.itertuples()
+    )
+    above = int((most["sim_mean"] > most["constant_sim"]).sum())
+    return (
+        f"{most['shapes'].max()} shapes an object in place of one, with as many pictures, change "
+        f"the similarity on objects left out by {gains}; {above} of {len(most)} models then "
+        "exceed the best constant answer."
+    )

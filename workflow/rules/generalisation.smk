@@ -1,0 +1,84 @@
+# What more shapes of every object buy on objects never seen: `snakemake reports/generalisation.csv`.
+# Its own target, since no other result needs it. Nothing but features is made of the variants.
+
+
+rule picture_variants:
+    input:
+        backbone=rules.prepare_backbone.output.record,
+    output:
+        features="data/generalisation/features/{object}.npz",
+    log:
+        "logs/picture_variants/{object}.log",
+    benchmark:
+        "logs/benchmarks/picture_variants/{object}.tsv"
+    wildcard_constraints:
+        object="|".join(config["objects"]["names"]) or "none",
+    conda:
+        "../envs/grasptypes.yaml"
+    params:
+        settings={
+            "objects": variant_settings(),
+            "renders": settings("renders", "views", "sheet"),
+            "features": settings("features"),
+            "tasks": config["tasks"],
+            "views": variant_views(),
+        },
+        seed=config["seed"],
+        code=script_hash("picture_variants"),
+    message:
+        "Taking pictures of the variants of {wildcards.object}"
+    script:
+        "../scripts/picture_variants.py"
+
+
+rule leave_out_shapes:
+    input:
+        objects=lambda wildcards: expand(
+            rules.extract_features.output.features,
+            object=varied_objects(wildcards.labels),
+        ),
+        variants=lambda wildcards: expand(
+            rules.picture_variants.output.features, object=varied_objects(wildcards.labels)
+        ),
+        samples=lambda wildcards: SAMPLES[wildcards.labels],
+        backbone=rules.prepare_backbone.output.record,
+    output:
+        metrics="data/generalisation/{labels}/{model}.csv",
+    log:
+        "logs/leave_out_shapes/{labels}_{model}.log",
+    benchmark:
+        "logs/benchmarks/leave_out_shapes/{labels}_{model}.tsv"
+    conda:
+        "../envs/grasptypes.yaml"
+    params:
+        settings=lambda wildcards: {
+            "tasks": learning_tasks(wildcards),
+            "predictors": settings("predictors"),
+            **settings("generalisation"),
+        },
+        seed=config["seed"],
+        code=script_hash("leave_out_shapes"),
+    message:
+        "Testing {wildcards.model} on objects left out in all shapes ({wildcards.labels} labels)"
+    script:
+        "../scripts/leave_out_shapes.py"
+
+
+rule tabulate_generalisation:
+    input:
+        metrics=expand(rules.leave_out_shapes.output.metrics, labels=LABELS, model=MODELS),
+        samples=[SAMPLES[labels] for labels in LABELS],
+    output:
+        table="reports/generalisation.csv",
+        figure="reports/generalisation.png",
+    log:
+        "logs/tabulate_generalisation.log",
+    conda:
+        "../envs/grasptypes.yaml"
+    params:
+        labels=LABELS,
+        code=script_hash("tabulate_generalisation"),
+    message:
+        "Tabulating what more shapes buy on unseen objects"
+    script:
+        "../scripts/tabulate_generalisation.py"

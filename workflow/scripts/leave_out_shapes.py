@@ -1,0 +1,61 @@
+"""Test one model on objects left out in all their shapes, with more shapes of the others."""
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import pandas as pd
+import torch
+
+from grasptypes.files import read_npz
+from grasptypes.jobs import job
+from grasptypes.labels.samples import read_samples
+from grasptypes.predictors.generalisation import TRIAL_SCHEMA, Inputs, Trial, try_trial
+from grasptypes.predictors.learning_inputs import read_backbone_record, read_inputs
+from grasptypes.predictors.predictor_files import FROZEN
+from grasptypes.predictors.protocol import recipe_of
+from grasptypes.reports.results import with_source
+from grasptypes.tables import write_table
+
+
+def read_variants(paths: Sequence[str]) -> Inputs:
+    """Variant to encoding to features, from files of `picture_variants`."""
+    variants: Inputs = {}
+    for path in paths:
+        for name, array in read_npz(path).items():
+            variant, encoding = name.split("/")
+            variants.setdefault(variant, {})[encoding] = array
+    return variants
+
+
+def leave_out_shapes(
+    inputs: Mapping[str, Any],
+    target: str | Path,
+    name: tuple[str, str],
+    settings: Mapping[str, Any],
+    seed: int,
+) -> None:
+    """Write the metrics of the model `name` (labels, model), one row a trial, object and seed."""
+    record = read_backbone_record(inputs["backbone"])
+    objects = read_inputs(inputs["objects"], settings["tasks"])
+    variants, samples = read_variants(inputs["variants"]), read_samples(inputs["samples"])
+    recipe = recipe_of(settings["predictors"] | {"finetune": FROZEN})
+    tasks, tables = list(settings["tasks"]), []
+    for trial in (Trial(**entry) for entry in settings["trials"]):
+        known = (objects, variants, samples, name[1], tasks, trial)
+        metrics = try_trial(*known, recipe, settings["seeds"], seed)
+        table = with_source(metrics, name, record, FROZEN)
+        tables.append(table.assign(shapes=trial.shapes, views=trial.views))
+    write_table(pd.concat(tables, ignore_index=True), target, TRIAL_SCHEMA)
+
+
+if __name__ == "__main__":
+    with job(snakemake.log):
+        torch.set_num_threads(snakemake.threads)
+        leave_out_shapes(
+            dict(snakemake.input.items()),
+            snakemake.output.metrics,
+            (snakemake.wildcards.labels, snakemake.wildcards.model),
+            snakemake.params.settings,
+            snakemake.params.seed,
+        )

@@ -1,0 +1,63 @@
+"""Features of pictures of an object's variants; nothing else of them is kept."""
+
+import tempfile
+from collections.abc import Mapping
+from dataclasses import fields
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import torch
+
+from grasptypes.files import write_npz
+from grasptypes.jobs import job
+from grasptypes.objects.preparation import scaled_parts, visual_glb
+from grasptypes.objects.variants import variant_names
+from grasptypes.objects.variation import build_variant
+from grasptypes.predictors.backbone import load_backbone
+from grasptypes.predictors.features import encodings, extract
+from grasptypes.predictors.learning_inputs import read_backbone_record, recorded_weights
+from grasptypes.renders.renderer import Camera, Studio
+from grasptypes.renders.scene import Part, load_parts
+
+
+def variant_parts(name: str, objects: Mapping[str, Any], seed: int) -> list[Part]:
+    """What the camera sees of a variant; `objects` is the section of params.yaml."""
+    model = build_variant(name, objects["variation"], seed)
+    content = visual_glb(scaled_parts(model, objects["scale"]), objects["resolution"]["crease_deg"])
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "visual.glb"
+        path.write_bytes(content)
+        return load_parts(path)
+
+
+def picture_variants(
+    record: str, target: str, name: str, settings: Mapping[str, Any], seed: int
+) -> None:
+    """Write one array a variant and encoding, (views, F) float32, named `mug_v01/use`."""
+    known = read_backbone_record(record)
+    backbone = load_backbone(recorded_weights(known), known.input_px)
+    shifts, chosen = encodings(settings["tasks"]), settings["features"]
+    studio = Studio(**{field.name: settings["renders"][field.name] for field in fields(Studio)})
+    features = {}
+    with Camera(studio) as camera:
+        names = variant_names(name, len(settings["views"]))
+        for variant, count in zip(names, settings["views"], strict=True):
+            parts = variant_parts(variant, settings["objects"], seed)
+            views = camera.views(parts, count, variant, seed)
+            pictures = np.stack(list(views.pictures()))
+            found = extract(backbone, pictures, shifts, chosen["precision"], chosen["batch"])
+            features |= {f"{variant}/{encoding}": array for encoding, array in found.items()}
+    write_npz(target, features)
+
+
+if __name__ == "__main__":
+    with job(snakemake.log):
+        torch.set_num_threads(snakemake.threads)
+        picture_variants(
+            snakemake.input.backbone,
+            snakemake.output.features,
+            snakemake.wildcards.object,
+            snakemake.params.settings,
+            snakemake.params.seed,
+        )
