@@ -12,10 +12,19 @@ DETAILS = {"tabulate_types": 1, "tabulate_objects": 1, "plot_folds": 1, "plot_lo
 LEARNING = {"train_predictor": 8, "leave_out_objects": 8, **TABLES, **DETAILS}
 
 
+# Rules that only name what is wanted.
+TARGETS = {"all", "objects", "contact_maps", "grasps", "screenshots"}
+TARGETS |= {"renders", "features", "predictors"}
+
+
 def made(repository: Repository, tool: str) -> dict[str, int]:
-    """The jobs that a tool runs to bring everything up to date, but for the target itself."""
-    output = repository.snakemake("all") if tool == "snakemake" else repository.dvc("repro")
-    return {rule: count for rule, count in jobs(output).items() if rule != "all"}
+    """The jobs that a tool runs to bring everything up to date."""
+    return work(repository.snakemake("all") if tool == "snakemake" else repository.dvc("repro"))
+
+
+def work(output: str) -> dict[str, int]:
+    """The jobs that a tool's output announces, but for those that make nothing."""
+    return {rule: count for rule, count in jobs(output).items() if rule not in TARGETS}
 
 
 def change_setting(repository: Repository) -> None:
@@ -101,7 +110,7 @@ def files(repository: Repository, *folders: str) -> set[str]:
 def test_g_experiment(changed: Repository) -> None:
     """(g) dvc exp run -S in the workspace: only the affected jobs, then nothing to do"""
     output = changed.dvc("exp", "run", "-n", "wide", "-S", "renders.sheet.views=2")
-    assert jobs(output) == {"plot_renders": 1, "renders": 1}
+    assert work(output) == {"plot_renders": 1}
     assert changed.is_clean()
 
 
@@ -109,7 +118,7 @@ def test_g_temporary_experiment(changed: Repository) -> None:
     """(g) dvc exp run --temp -S: only the affected jobs, and the workspace stays as it is"""
     before = (changed.path / "dvc.lock").read_bytes()
     output = changed.dvc("exp", "run", "--temp", "-n", "tall", "-S", "renders.sheet.views=3")
-    assert jobs(output) == {"plot_renders": 1, "renders": 1}
+    assert work(output) == {"plot_renders": 1}
     assert (changed.path / "dvc.lock").read_bytes() == before
     assert changed.is_clean()
     changed.dvc("exp", "apply", "tall")
