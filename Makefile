@@ -14,7 +14,8 @@ export PATH := $(BIN):$(PATH)
 export DVC_NO_ANALYTICS := 1
 export MLFLOW_DISABLE_TELEMETRY := true
 
-.PHONY: help setup table1 demo test acceptance bad-input test-faults verify lint format doctor publish ui report clean lock
+.PHONY: help setup table1 demo test acceptance bad-input test-faults verify coverage mutation bench lint format doctor \
+    publish ui report clean lock
 
 help: ## list the targets
 	@awk -F ':.*## ' '/^[a-z0-9-]+:.*## / {printf "  make %-12s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -55,6 +56,15 @@ test-faults: setup ## kill KILLS runs at random moments, then full disks, missin
 verify: setup ## compute everything twice from nothing, -j1 and -j2, and compare every file; VERIFY="--params tests/small.yaml"
 	rm -rf build/verify
 	python tests/workflow/verify.py build/verify $(VERIFY)
+
+coverage: setup ## line coverage of src/ by the default tests, what Snakemake's jobs run included
+	pytest -n $(JOBS) --cov --cov-report term
+
+mutation: setup ## which changes of labelling, folds and metrics the tests do not notice
+	mutmut run && mutmut results
+
+bench: setup ## each figure of speed beside its reference; most parts need results to be there
+	python -m benchmarks
 
 lint: setup ## style, types and workflow checks
 	ruff check . && ruff format --check . && mypy && snakefmt --check Snakefile workflow

@@ -1,0 +1,66 @@
+"""All benchmarks in one run, printed and written to `reports/benchmarks.csv`; see `make bench`.
+
+``python -m benchmarks [PART ...]`` prints some parts only and writes nothing.
+"""
+
+from __future__ import annotations
+
+import argparse
+import importlib
+import sys
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import Any
+
+from benchmarks.figures import FIGURE_SCHEMA, Figure, NotReady, header, line, table
+
+from grasptypes.params import read_yaml
+from grasptypes.tables import write_table
+
+TABLE = Path("reports/benchmarks.csv")
+SETTINGS = Path(__file__).with_name("settings.yaml")
+# Each part is a module here; what it needs beside a checkout, and what makes that.
+PARTS = {
+    "records": ("logs/benchmarks", "snakemake"),
+    "idle": (".snakemake/metadata", "dvc repro"),
+    "parallel": ("params.yaml", ""),
+    "synthesis": ("data/contact_maps", "snakemake contact_maps"),
+    "renders": ("data/objects", "snakemake objects"),
+    "features": ("data/renders", "snakemake renders"),
+    "training": ("data/features", "snakemake features data/samples.csv data/folds.csv"),
+}
+
+
+def measured(
+    parts: list[str], settings: Mapping[str, Any], params: Mapping[str, Any]
+) -> Iterator[Figure]:
+    """Print and hand on what the parts measure; say of a part that cannot be measured why."""
+    for part in parts:
+        needed, maker = PARTS[part]
+        try:
+            if not Path(needed).exists():
+                raise NotReady(f"{needed} is missing; {maker} makes it")
+            for found in importlib.import_module(f"benchmarks.{part}").measure(
+                settings[part], params
+            ):
+                sys.stdout.write(line(found) + "\n")
+                sys.stdout.flush()
+                yield found
+        except NotReady as reason:
+            sys.stdout.write(f"{part} is left out: {reason}\n")
+
+
+def main() -> None:
+    """Command line."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("parts", nargs="*", metavar="PART", help=", ".join(PARTS))
+    parts = parser.parse_args().parts
+    sys.stdout.write(header() + "\n")
+    settings, params = read_yaml(SETTINGS), read_yaml("params.yaml")
+    found = table(measured(parts or list(PARTS), settings, params))
+    if not parts:
+        write_table(found, TABLE, FIGURE_SCHEMA)
+
+
+if __name__ == "__main__":
+    main()

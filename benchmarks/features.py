@@ -1,0 +1,48 @@
+"""Pictures a second through the backbone beside a plain fp32 torchvision loop, one thread each."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Iterator, Mapping
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import torch
+import torchvision
+from benchmarks.figures import Figure, rates, seconds
+
+from grasptypes.predictors.backbone import load_backbone
+from grasptypes.predictors.features import NO_TASK, extract, read_pictures
+from grasptypes.predictors.weights import Weights, find_weights
+
+
+def measure(settings: Mapping[str, Any], params: Mapping[str, Any]) -> Iterator[Figure]:
+    """Both go from pictures of the workflow's size to pooled features."""
+    torch.set_num_threads(1)
+    weights = find_weights(timeout_s=0)
+    pictures = read_pictures(sorted(Path("data/renders").glob("*.zip"))[0])[: settings["pictures"]]
+    how, input_px = params["features"], params["backbone"]["input_px"]
+    backbone = load_backbone(weights, input_px)
+    ours = partial(extract, backbone, pictures, {NO_TASK: 0}, how["precision"], how["batch"])
+    plain = partial(_plain, _network(weights), pictures, input_px, how["batch"])
+    taken_s = seconds(ours, plain, rounds=settings["rounds"], clock=time.process_time)
+    yield rates(f"features in {how['precision']}", "pictures/s", taken_s, len(pictures))
+
+
+def _network(weights: Weights) -> torch.nn.Module:
+    """torchvision's MobileNetV2 as it comes; with its random start if other weights are in use."""
+    network = torchvision.models.mobilenet_v2()
+    if weights.backbone == "mobilenet_v2":
+        network.load_state_dict(torch.load(weights.path, weights_only=True))
+    return network.eval()
+
+
+@torch.inference_mode()
+def _plain(network: torch.nn.Module, pictures: np.ndarray, input_px: int, batch: int) -> None:
+    functional = torchvision.transforms.functional
+    for chunk in torch.from_numpy(pictures).permute(0, 3, 1, 2).split(batch):
+        x = functional.resize(chunk.to(torch.float32) / 255, [input_px, input_px])
+        x = functional.normalize(x, [0.485, 0.456, 0.406], [0.229, 0.224, 0.225])
+        network.features(x).mean(dim=(2, 3))

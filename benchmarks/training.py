@@ -1,0 +1,42 @@
+"""Seconds to train one model, all folds and seeds side by side, beside training them in turn."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Iterator, Mapping
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import torch
+from benchmarks.figures import Figure, seconds
+
+from grasptypes.predictors.problem import read_problem
+from grasptypes.predictors.training import fit, members_by_group
+
+
+def measure(settings: Mapping[str, Any], params: Mapping[str, Any]) -> Iterator[Figure]:
+    """One thread, as in the workflow; one member stands for all that would be trained in turn."""
+    torch.set_num_threads(1)
+    name = settings["labels"], settings["model"]
+    samples = "samples" if settings["labels"] == "simulated" else "published_samples"
+    files = {
+        "inputs": sorted(Path("data/features").glob("*.npz")),
+        "samples": Path("data") / f"{samples}.csv",
+        "folds": Path("data/folds.csv"),
+        "backbone": Path("data/backbone.json"),
+    }
+    problem = read_problem(files, name, params["tasks"], params["predictors"])
+    members = members_by_group(problem.examples.index["fold"], params["predictors"]["seeds"])
+    train = partial(fit, problem.examples, schedule=problem.recipe.schedule, key=("benchmark",))
+    works = partial(train, members), partial(train, members[:1])
+    together_s, alone_s = seconds(*works, rounds=settings["rounds"], clock=time.process_time).T
+    in_turn_s = len(members) * alone_s
+    yield Figure(
+        f"training of {settings['model']}, {len(members)} heads",
+        float(np.median(together_s)),
+        "s",
+        float(np.median(in_turn_s)),
+        float(np.median(together_s / in_turn_s)),
+    )
