@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 import trimesh
 
-from grasptypes.hand import kinematics
+from grasptypes.hand import kinematics, shapes
 from grasptypes.labels.contacts import (
     DISTAL_LINKS,
     FINGER_LINKS,
@@ -13,6 +13,7 @@ from grasptypes.labels.contacts import (
     MeshDistance,
     closing_directions,
     find_contacts,
+    unit,
 )
 from grasptypes.objects.distance_grid import DistanceGrid
 
@@ -114,3 +115,68 @@ def test_mesh_distance_is_negative_inside_and_points_outwards():
     distance, direction = field.distance_and_gradient([[0, 0, 0.04], [0, 0, 0.05], [0, 0, 0.07]])
     np.testing.assert_allclose(distance, [-0.01, 0.0, 0.02], atol=1e-9)
     np.testing.assert_allclose(direction, [[0, 0, 1]] * 3, atol=1e-9)
+
+
+def test_mesh_distance_near_the_surface_points_along_the_face_whatever_the_shape_asked_for():
+    box = trimesh.creation.box([0.1, 0.1, 0.1])
+    vertices, faces = np.array(box.vertices), np.array(box.faces, dtype=np.int64)
+    points = np.array(
+        [
+            [[0.06, 0.08, 0.0], [0.0502, 0.0, 0.0]],
+            [[0.0, -0.0495, 0.0], [-0.051, 0.0, 0.0]],
+        ]
+    )
+    expected = [[[0.316228, 0.948683, 0], [1, 0, 0]], [[0, -1, 0], [-1, 0, 0]]]
+    distance, direction = MeshDistance(vertices, faces).distance_and_gradient(points)
+    np.testing.assert_allclose(distance, [[0.0316228, 0.0002], [-0.0005, 0.001]], atol=1e-7)
+    np.testing.assert_allclose(direction, expected, atol=1e-6)
+    # Faces turned inside out change the normals, not what is inside.
+    turned = MeshDistance(vertices, faces[:, ::-1]).distance_and_gradient(points)
+    np.testing.assert_allclose(turned[0], distance, atol=1e-7)
+    np.testing.assert_allclose(turned[1][0, 0], direction[0, 0], atol=1e-6)
+
+
+def test_unit_vectors_keep_their_direction_and_zero_stays_zero():
+    vectors = np.array([[[3.0, 4.0, 0.0], [0.0, 0.0, 0.0]], [[0.0, 1e-9, 0.0], [0.0, 0.0, -0.5]]])
+    expected = [[[0.6, 0.8, 0.0], [0.0, 0.0, 0.0]], [[0.0, 1.0, 0.0], [0.0, 0.0, -1.0]]]
+    np.testing.assert_allclose(unit(vectors), expected)
+
+
+@pytest.mark.parametrize("finger", [1, 2, 3])
+def test_both_links_of_a_finger_turn_about_its_base(finger):
+    T = kinematics.link_poses(kinematics.couple(np.radians([[40.0, 30.0, 50.0, 70.0]])))
+    positions = np.random.default_rng(finger).normal(0, 0.1, (1, 9, 3))
+    directions = closing_directions(T, positions)
+    base = T[0, kinematics.LINK_NAMES.index(f"proximal_{finger}")]
+    for kind in ("proximal", "distal"):
+        link = kinematics.LINK_NAMES.index(f"{kind}_{finger}")
+        moved = np.cross(base[:3, 2], positions[0, link] - base[:3, 3])
+        np.testing.assert_allclose(directions[0, link], moved / np.linalg.norm(moved))
+
+
+def test_contacts_are_the_weighted_means_of_the_points_near_each_link():
+    centre, radius = np.array([0.02, -0.01, 0.1]), 0.045
+    T = np.stack([pose(), pose([0.005, 0.01, -0.02])])
+    angles = np.concatenate([closed(10, 50), closed(30, 70)])
+    found = find_contacts(Ball(centre, radius), T, angles, SETTINGS)
+    surface = shapes.surface_points(SETTINGS.surface_spacing_m)
+    for n, T_object_hand in enumerate(T):
+        T_hand_link = kinematics.link_poses(angles[n])
+        closing = closing_directions(T_hand_link[None], found.position_m[n][None])[0]
+        for link, T_link in enumerate(T_hand_link):
+            points = surface.points_m[surface.link_index == link] @ T_link[:3, :3].T + T_link[:3, 3]
+            offset = points + T_object_hand[:3, 3] - centre
+            length = np.linalg.norm(offset, axis=1)
+            gap = (length - radius).min()
+            outward = offset / length[:, None]
+            share = np.exp(-(length - radius - gap) / SETTINGS.patch_depth_m)
+            share /= share.sum()
+            assert found.gap_m[n, link] == pytest.approx(gap)
+            on_object = points - (length - radius)[:, None] * outward
+            np.testing.assert_allclose(found.position_m[n, link], share @ on_object, atol=1e-12)
+            normal = unit(share @ outward)
+            np.testing.assert_allclose(found.normal[n, link], normal, atol=1e-9)
+            push = unit(SETTINGS.closing_weight * closing[link] - normal)
+            np.testing.assert_allclose(found.push[n, link], push, atol=1e-9)
+            weight = min(max(1 - gap / SETTINGS.reach_m, 0), 1)
+            assert found.weight[n, link] == pytest.approx(weight)

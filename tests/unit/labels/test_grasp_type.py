@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from grasptypes.hand import kinematics
-from grasptypes.labels.contacts import DISTAL_LINKS, Contacts
+from grasptypes.labels.contacts import DISTAL_LINKS, FINGER_LINKS, PALM, Contacts
 from grasptypes.labels.grasp_type import (
     GRASP_TYPES,
     Measures,
@@ -65,25 +65,74 @@ def test_classify_agrees_with_explain():
     assert set(names) == set(GRASP_TYPES[:-1])
 
 
-def test_explanation_names_the_decisions_taken_and_no_others():
-    sphere = label(sideways_share=0.06)
-    assert sphere.branch == (
-        "power: palm gap 0.0 mm <= 20.0 mm, enclosed diameter 70.0 mm > 50.0 mm, "
-        "sideways share 0.060 > 0.050"
-    )
-    assert label(palm_gap_m=0.03).branch.startswith("precision: palm gap 30.0 mm > 20.0 mm")
-    assert "span" not in label(palm_gap_m=0.03).branch
+@pytest.mark.parametrize(
+    ("changes", "branch"),
+    [
+        (
+            {"enclosed_diameter_m": 0.050},
+            "power: palm gap 0.0 mm <= 20.0 mm, enclosed diameter 50.0 mm <= 50.0 mm",
+        ),
+        (
+            {"sideways_share": 0.06},
+            "power: palm gap 0.0 mm <= 20.0 mm, enclosed diameter 70.0 mm > 50.0 mm, "
+            "sideways share 0.060 > 0.050",
+        ),
+        (
+            {},
+            "power: palm gap 0.0 mm <= 20.0 mm, enclosed diameter 70.0 mm > 50.0 mm, "
+            "sideways share 0.000 <= 0.050, fingertip span 60.0 mm <= 80.0 mm",
+        ),
+        (
+            {"span_m": 0.0904},
+            "power: palm gap 0.0 mm <= 20.0 mm, enclosed diameter 70.0 mm > 50.0 mm, "
+            "sideways share 0.000 <= 0.050, fingertip span 90.4 mm > 80.0 mm",
+        ),
+        (
+            {"palm_gap_m": 0.03},
+            "precision: palm gap 30.0 mm > 20.0 mm, sideways share 0.000 <= 0.050",
+        ),
+        (
+            {"palm_gap_m": 0.03, "sideways_share": 0.0504},
+            "precision: palm gap 30.0 mm > 20.0 mm, sideways share 0.050 > 0.050",
+        ),
+    ],
+)
+def test_explanation_names_the_decisions_taken_and_no_others(changes, branch):
+    assert label(**changes).branch == branch
 
 
-def test_margin_is_the_nearest_threshold_that_mattered():
-    assert label(span_m=0.072).margin == pytest.approx(0.1)
-    # The span is no branch of a sphere.
-    assert label(sideways_share=0.06, span_m=0.08).margin == pytest.approx(0.2)
+@pytest.mark.parametrize(
+    ("changes", "margin"),
+    [
+        ({"palm_gap_m": 0.016}, 0.2),
+        ({"palm_gap_m": 0.019, "enclosed_diameter_m": 0.045}, 0.05),
+        ({"enclosed_diameter_m": 0.045}, 0.1),
+        ({"sideways_share": 0.06}, 0.2),
+        ({"span_m": 0.072}, 0.1),
+        ({"span_m": 0.088}, 0.1),
+        ({"palm_gap_m": 0.03}, 0.5),
+        ({"palm_gap_m": 0.03, "sideways_share": 0.055}, 0.1),
+        # Neither the span is a branch of a sphere, nor the share one of a small wrap.
+        ({"sideways_share": 0.06, "span_m": 0.08}, 0.2),
+        ({"enclosed_diameter_m": 0.025, "sideways_share": 0.05}, 0.5),
+        # Nor is the diameter or the span one of a precision grasp.
+        ({"palm_gap_m": 0.03, "enclosed_diameter_m": 0.05, "span_m": 0.08}, 0.5),
+    ],
+)
+def test_margin_is_the_share_to_the_nearest_threshold_that_mattered(changes, margin):
+    assert label(**changes).margin == pytest.approx(margin)
 
 
 @pytest.mark.parametrize(
     ("changes", "fingers"),
-    [({}, 2), ({"sideways_share": 0.2}, 3), ({"palm_gap_m": 0.1}, 2)],
+    [
+        ({}, 2),
+        ({"span_m": 0.1}, 2),
+        ({"enclosed_diameter_m": 0.04, "sideways_share": 0.2}, 2),
+        ({"sideways_share": 0.2}, 3),
+        ({"palm_gap_m": 0.1}, 2),
+        ({"palm_gap_m": 0.1, "sideways_share": 0.2}, 3),
+    ],
 )
 def test_virtual_fingers(changes, fingers):
     assert label(**changes).virtual_fingers == fingers
@@ -102,6 +151,14 @@ def test_sideways_share_is_the_mean_square_along_x():
     assert sideways_share(contacts([0.6, 0.8, 0.0]))[0] == pytest.approx(0.36)
 
 
+def test_sideways_share_is_weighted_by_contact():
+    some = contacts(weight=0.0)
+    first, second = FINGER_LINKS[:2]
+    some.push[0, first], some.weight[0, first] = [1.0, 0.0, 0.0], 0.1
+    some.push[0, second], some.weight[0, second] = [0.0, 1.0, 0.0], 0.3
+    assert sideways_share(some)[0] == pytest.approx(0.25)
+
+
 def test_sideways_share_without_contact_is_zero():
     assert sideways_share(contacts([1.0, 0.0, 0.0], weight=0.0))[0] == 0.0
 
@@ -116,6 +173,8 @@ def test_span_goes_from_finger_3_to_the_further_opposing_one():
     some = contacts()
     some.position_m[0, list(DISTAL_LINKS)] = [[0, 0.03, 0], [0, 0.05, 0], [0, -0.02, 0]]
     assert fingertip_span(some)[0] == pytest.approx(0.07)
+    some.position_m[0, list(DISTAL_LINKS)] = [[0.3, 0.4, 0], [0, 0.05, 0], [0, 0, 0]]
+    assert fingertip_span(some)[0] == pytest.approx(0.5)
 
 
 def test_enclosed_circle_touches_palm_and_both_links():
@@ -145,3 +204,24 @@ def test_measure_takes_the_median_finger():
     angles = kinematics.couple(np.radians([[0, 20, 90, 140]]))
     expected = enclosed_diameters(angles)[0, 1]
     assert measure(contacts(), angles).enclosed_diameter_m[0] == pytest.approx(expected)
+
+
+def test_measures_are_those_of_each_grasp():
+    two = Contacts(*(np.concatenate([values, values]) for values in contacts()))
+    two.gap_m[:, PALM] = [0.01, 0.03]
+    two.push[1] = [1.0, 0.0, 0.0]
+    two.position_m[1, DISTAL_LINKS[0]] = [0.0, 0.09, 0.0]
+    angles = kinematics.couple(np.radians([[0, 20, 90, 140], [0, 60, 60, 60]]))
+    found = measure(two, angles)
+    np.testing.assert_allclose(found.palm_gap_m, [0.01, 0.03])
+    np.testing.assert_allclose(found.sideways_share, [0.0, 1.0])
+    np.testing.assert_allclose(found.span_m, [0.0, 0.09])
+    np.testing.assert_allclose(
+        found.enclosed_diameter_m, np.sort(enclosed_diameters(angles), axis=1)[:, 1]
+    )
+
+
+def test_nothing_is_enclosed_by_fingers_that_cross_the_palm():
+    closed = kinematics.couple(np.radians([[0, 140, 140, 140]]))
+    assert (enclosed_diameters(closed) >= 0).all()
+    assert enclosed_diameters(np.full((1, 8), np.radians(150)))[0].tolist() == [0.0] * 3

@@ -11,6 +11,7 @@ from grasptypes.predictors.features import NO_TASK
 from grasptypes.predictors.folds import FOLD_SCHEMA, split
 from grasptypes.predictors.predictor import VARIANTS
 from grasptypes.predictors.training import members_by_group
+from grasptypes.seeds import rng
 
 VIEWS = {"apple": 13, "mug": 10, "pan": 11}
 TASKS = ["use", "handoff", "show"]
@@ -55,6 +56,25 @@ def test_no_picture_is_in_train_and_test(model):
     assert (per_picture == 1).all()
 
 
+def test_as_many_folds_as_pictures_leave_one_picture_out():
+    assert split({"mug": 10}, 10, seed=0)["fold"].nunique() == 10
+
+
 def test_more_folds_than_pictures():
-    with pytest.raises(InputError, match=r"folds.count.*mug has 10"):
+    with pytest.raises(InputError) as caught:
         split(VIEWS, 11, seed=0)
+    expected = "params.yaml: folds.count: 11 folds need as many views; mug has 10"
+    assert str(caught.value) == expected
+
+
+def test_rows_are_in_order_and_the_seed_and_the_object_decide_who_is_where():
+    folds = split(VIEWS, 5, seed=0)
+    assert list(folds.columns) == ["object", "view", "fold"]
+    assert folds.index.tolist() == list(range(sum(VIEWS.values())))
+    ordered = folds.sort_values(["object", "view"])
+    pd.testing.assert_frame_equal(folds, ordered)
+    pd.testing.assert_frame_equal(folds, split(VIEWS, 5, seed=0))
+    assert not folds["fold"].equals(split(VIEWS, 5, seed=1)["fold"])
+    order = rng("folds", "mug", 0).permutation(10)
+    alone = split({"mug": 10}, 5, seed=0).set_index("view")["fold"]
+    assert alone[order].tolist() == [0, 1, 2, 3, 4, 0, 1, 2, 3, 4]

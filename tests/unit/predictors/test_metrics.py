@@ -33,9 +33,18 @@ def test_similarity_keeps_its_digits_at_small_angles():
     )
 
 
-@pytest.mark.parametrize("vector", [[0, 0, 0], [1, -1, 0], [np.nan, 1, 0]])
-def test_similarity_needs_a_direction_without_negative_parts(vector):
-    with pytest.raises(ValueError, match="angular similarity"):
+@pytest.mark.parametrize(
+    ("vector", "needed"),
+    [
+        ([0, 0, 0], "vectors that are not all zeros"),
+        ([[1, 0, 0], [0, 0, 0]], "vectors that are not all zeros"),
+        ([1, -1, 0], "finite, non-negative vectors"),
+        ([np.nan, 1, 0], "finite, non-negative vectors"),
+        ([np.inf, 1, 0], "finite, non-negative vectors"),
+    ],
+)
+def test_similarity_needs_a_direction_without_negative_parts(vector, needed):
+    with pytest.raises(ValueError, match=f"^angular similarity needs {needed}$"):
         angular_similarity([1, 0, 0], vector)
 
 
@@ -58,6 +67,29 @@ def test_sets_are_compared_by_their_overlap(predicted, target, accuracy, precisi
 
 def test_a_type_is_chosen_when_its_sigmoid_exceeds_one_half():
     np.testing.assert_array_equal(chosen([-1e-9, 0.0, 1e-9]), [False, False, True])
+
+
+def test_any_truth_value_counts_as_one_type():
+    assert multilabel_accuracy([2, 1, 0], [1, 2, 0]) == 1.0
+    assert multilabel_precision([0.5, 0, 4], [1, 0, 0]) == 0.5
+
+
+@pytest.mark.parametrize("measure", [angular_similarity, multilabel_accuracy, multilabel_precision])
+def test_many_samples_are_measured_like_one(measure):
+    rng = np.random.default_rng(0)
+    predicted, target = rng.integers(0, 3, (2, 4, 5, 3))
+    predicted[..., 0] += 1
+    target[..., 1] += 1
+    values = measure(predicted, target)
+    assert values.shape == (4, 5)
+    for index in np.ndindex(values.shape):
+        assert values[index] == pytest.approx(float(measure(predicted[index], target[index])))
+
+
+def test_softmax_of_many_samples_is_that_of_each():
+    logits = np.random.default_rng(0).normal(0, 3, (4, 3))
+    for row, probabilities in zip(logits, softmax(logits), strict=True):
+        np.testing.assert_allclose(probabilities, np.exp(row) / np.exp(row).sum())
 
 
 def test_softmax_survives_large_logits():
