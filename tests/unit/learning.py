@@ -1,4 +1,4 @@
-"""A small learning problem with an answer: features that show the object, or also the task."""
+"""A small learning problem with an answer, and small predictors that only look trained."""
 
 from __future__ import annotations
 
@@ -7,18 +7,23 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 import torch
+import yaml
 
-from grasptypes.labels.samples import COUNTS, samples_from_counts
-from grasptypes.predictors.backbone import untrained_backbone
+from grasptypes.labels.samples import COUNTS, TYPES, samples_from_counts
+from grasptypes.params import merge, read_yaml
+from grasptypes.predictors.backbone import KINDS, untrained_backbone
 from grasptypes.predictors.examples import Examples, assemble
 from grasptypes.predictors.features import NO_TASK
 from grasptypes.predictors.finetuning import FineTuning
 from grasptypes.predictors.folds import split
-from grasptypes.predictors.predictor import VARIANTS
+from grasptypes.predictors.predictor import VARIANTS, Architecture, Heads
+from grasptypes.predictors.predictor_files import Card, write_predictor
 from grasptypes.predictors.protocol import Recipe
 from grasptypes.predictors.training import Schedule
 from grasptypes.predictors.weights import Weights, weights_file
 
+ROOT = Path(__file__).parents[2]
+SHIFTS = {"use": 10, "handoff": -10, "wash": 20}
 TASKS = {"use": {"colour_shift": 10}, "handoff": {"colour_shift": -10}, "show": {"colour_shift": 0}}
 OBJECTS = ("apple", "mug", "pan", "knife")
 VIEWS = 20
@@ -79,3 +84,31 @@ def random_weights(path: Path) -> Weights:
     state["classifier.1.bias"] = torch.zeros(1000)
     torch.save(state, path)
     return weights_file("mobilenet_v2", "test", path)
+
+
+def small_predictor(folder: Path, weights: Weights, model: str = "task_vector") -> None:
+    """Write tensors and card of a predictor of drawn numbers for three tasks; answers differ."""
+    tasks = len(SHIFTS) if VARIANTS[model].task_vector else 0
+    sizes = Architecture(KINDS["mobilenet_v2"].features, tasks, (8, 8, 8), 6)
+    card = Card(
+        model, "simulated", TYPES, tuple(SHIFTS), SHIFTS, sizes,
+        weights.backbone, weights.name, 32, "none",
+    )  # fmt: skip
+    heads = Heads(sizes, [("a",)])
+    with torch.no_grad():
+        heads.weights[-1] *= 30
+    files = folder / "predictor.safetensors", folder / "predictor.json"
+    write_predictor(heads, None, card, *files)
+
+
+def small_checkout(root: Path, changes: dict) -> Weights:
+    """Make a folder with changed parameters and two models of random weights, `random.pth`."""
+    weights = random_weights(root / "random.pth")
+    for model in ("task_vector", "no_task"):
+        small_predictor(root / "models/simulated" / model, weights, model)
+    params = merge(read_yaml(ROOT / "params.yaml"), changes)
+    (root / "params.yaml").write_text(yaml.safe_dump(params, sort_keys=False))
+    schema = Path("workflow/schemas/params.schema.yaml")
+    (root / schema).parent.mkdir(parents=True)
+    (root / schema).write_bytes((ROOT / schema).read_bytes())
+    return weights

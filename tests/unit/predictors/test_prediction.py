@@ -6,24 +6,18 @@ import numpy as np
 import pytest
 import torch
 import trimesh
-import yaml
-from learning import random_weights
+from learning import small_checkout
 from PIL import Image
-from test_environment import ROOT
 
 from grasptypes.__main__ import main
 from grasptypes.errors import InputError
 from grasptypes.labels.samples import TYPES
-from grasptypes.predictors.backbone import KINDS
 from grasptypes.predictors.metrics import softmax
 from grasptypes.predictors.prediction import predictor_paths
 from grasptypes.predictors.prediction_pictures import montage
-from grasptypes.predictors.predictor import Architecture, Heads
-from grasptypes.predictors.predictor_files import Card, load_predictor, write_predictor
+from grasptypes.predictors.predictor_files import load_predictor
 from grasptypes.predictors.weights import WEIGHTS_VARIABLE, weights_file
-from grasptypes.versions.checkout import read_yaml
 
-SHIFTS = {"use": 10, "handoff": -10, "wash": 20}
 PICTURE = np.random.default_rng(1).integers(0, 256, (64, 64, 3), dtype=np.uint8)
 
 
@@ -31,26 +25,7 @@ PICTURE = np.random.default_rng(1).integers(0, 256, (64, 64, 3), dtype=np.uint8)
 def checkout(tmp_path_factory):
     """A folder with parameters and two models of random weights, for three tasks."""
     root = tmp_path_factory.mktemp("checkout")
-    weights = random_weights(root / "random.pth")
-    for model, tasks in (("task_vector", 3), ("no_task", 0)):
-        sizes = Architecture(KINDS["mobilenet_v2"].features, tasks, (8, 8, 8), 6)
-        card = Card(
-            model, "simulated", TYPES, tuple(SHIFTS), SHIFTS, sizes,
-            weights.backbone, weights.name, 32, "none",
-        )  # fmt: skip
-        folder = root / "models/simulated" / model
-        files = folder / "predictor.safetensors", folder / "predictor.json"
-        heads = Heads(sizes, [("a",)])
-        with torch.no_grad():
-            heads.weights[-1] *= 30  # answers that differ
-        write_predictor(heads, None, card, *files)
-    params = read_yaml(ROOT / "params.yaml")
-    params["renders"]["size_px"] = 96
-    params["predict"]["views"] = 3
-    (root / "params.yaml").write_text(yaml.safe_dump(params))
-    schema = root / "workflow/schemas/params.schema.yaml"
-    schema.parent.mkdir(parents=True)
-    schema.write_bytes((ROOT / "workflow/schemas/params.schema.yaml").read_bytes())
+    small_checkout(root, {"renders": {"size_px": 96}, "predict": {"views": 3}})
     return root
 
 
