@@ -50,6 +50,7 @@ include: "workflow/rules/learning.smk"
 include: "workflow/rules/tables.smk"
 include: "workflow/rules/details.smk"
 include: "workflow/rules/generalisation.smk"
+include: "workflow/rules/planning.smk"
 
 
 wildcard_constraints:

@@ -9,10 +9,10 @@ import warnings
 from collections.abc import Sequence
 from typing import NoReturn
 
-from grasptypes.commands import predict
+from grasptypes.commands import plan, predict
 from grasptypes.errors import InputError
 
-COMMANDS = {"predict": predict}
+COMMANDS = {"predict": predict, "plan": plan}
 
 
 class _Parser(argparse.ArgumentParser):

@@ -30,6 +30,7 @@ from grasptypes.objects.contact_scan import ContactScan, read_contact_scan
 from grasptypes.seeds import rng
 
 Array = NDArray[np.float64]
+GRIPS = tuple(STYLE_OF_GRIP)
 # Fewer warm points have no longest extent that a hand could lie along.
 MIN_WARM_POINTS = 3
 
@@ -118,12 +119,14 @@ def draw_measured_session(
     params: Mapping[str, Any],
     scale: float,
     path: str | Path,
+    grips: Sequence[str] = GRIPS,
 ) -> Session:
     """One person's way of holding an object where it was measured to be held.
 
     Args:
         probability: (N,) of touch.
         key: object, task, session and seed: all that the draw depends on beside the parameters.
+        grips: of the affinity table, that the person may choose from.
 
     Raises:
         InputError: in none of the placements thumb and fingers end up on two sides.
@@ -137,7 +140,7 @@ def draw_measured_session(
     reached = Surface(points.points_m, points.normals, margin_m <= 2 * hand.pad_radius_m)
     sessions, weights = [], []
     for _ in range(params["measured"]["placements"]):
-        hold = _any_hold(draw)
+        hold = _any_hold(draw, grips)
         placement, height = place_hand(held, hold, hand, params["placement"], draw)
         contact = handprint(reached, hold.grip, placement, hand)
         if opposes(points.normals[contact >= params["threshold"]], placement.closing):
@@ -146,19 +149,17 @@ def draw_measured_session(
     if not sessions:
         raise InputError(
             path,
-            "red",
-            f"is warm where no hand can hold {key[0]}: in {params['measured']['placements']} "
-            "placements thumb and fingers found no two sides",
+            "",
+            f"no hand can hold {key[0]} where it is to be touched: in "
+            f"{params['measured']['placements']} placements thumb and fingers found no two sides",
         )
     shares = np.cumsum(weights)
     return sessions[int(np.searchsorted(shares, draw.uniform(0.0, shares[-1]), side="right"))]
 
 
-def _any_hold(draw: np.random.Generator) -> Hold:
-    """Any grip from any side, as a row of the affinity table on the whole object."""
-    grip, approach, axis = (
-        str(draw.choice(choices)) for choices in (tuple(STYLE_OF_GRIP), APPROACHES, AXES)
-    )
+def _any_hold(draw: np.random.Generator, grips: Sequence[str]) -> Hold:
+    """Any of the grips from any side, as a row of the affinity table on the whole object."""
+    grip, approach, axis = (str(draw.choice(choices)) for choices in (grips, APPROACHES, AXES))
     return Hold((), grip, approach, axis, 0.0, 1.0, 1.0, "measured")
 
 

@@ -96,6 +96,15 @@ def dataset_table(labelled: Sequence[pd.DataFrame]) -> pd.DataFrame:
     table["pose_index"] = table["rank"]
     keys = table[["object", "session", "task"]].itertuples(index=False)
     table["image"] = [image_name(*key) for key in keys]
+    return dataset_columns(table)
+
+
+def dataset_columns(table: pd.DataFrame) -> pd.DataFrame:
+    """Labelled grasps in the authors' columns and ours, in their order.
+
+    Args:
+        table: of `label_grasps`, with the columns pose_index and image.
+    """
     angles = np.stack(table.joint_angles_rad.tolist()).astype(np.float64)
     ours = pd.DataFrame(
         {

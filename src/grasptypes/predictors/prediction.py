@@ -100,6 +100,13 @@ def sigmoid(logits: np.ndarray) -> np.ndarray:
     return 1 / (1 + np.exp(-logits))
 
 
+def wanted_types(answer: Answer, types: Sequence[str]) -> list[str]:
+    """The chosen types as the published table spells them; the likeliest if none is chosen."""
+    likeliest = answer.probability == answer.probability.max()
+    chosen = answer.chosen if answer.chosen.any() else likeliest
+    return [spelled(kind) for kind, yes in zip(types, chosen, strict=True) if yes]
+
+
 def describe(answers: Sequence[Answer], card: Card, task: str) -> dict[str, Any]:
     """Everything there is to say, as plain values for JSON."""
     return {

@@ -30,10 +30,14 @@ def mesh_views(
     """
     found = import_model(own, ImportLimits(**objects["import"]))
     glb = visual_glb(scaled_parts(found.model, found.scale), objects["resolution"]["crease_deg"])
-    studio = Studio(**{field.name: renders[field.name] for field in fields(Studio)})
     with tempfile.TemporaryDirectory() as folder:
         visual = Path(folder) / "visual.glb"
         visual.write_bytes(glb)
-        parts = load_parts(visual)
+        return views(visual, renders, count, Path(own["file"]).stem)
+
+
+def views(visual: str | Path, renders: Mapping[str, Any], count: int, key: str) -> np.ndarray:
+    """Views (count, S, S, 3) uint8 of a prepared object from random sides, which `key` decides."""
+    studio = Studio(**{field.name: renders[field.name] for field in fields(Studio)})
     with Camera(studio) as camera:
-        return np.stack(list(camera.views(parts, count, Path(own["file"]).stem, 0).pictures()))
+        return np.stack(list(camera.views(load_parts(visual), count, key, 0).pictures()))

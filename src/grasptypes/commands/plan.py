@@ -1,0 +1,200 @@
+"""Plan grasps of a mesh for a task: searched, tested in physics, labelled and ranked.
+
+Heavy libraries are imported once the arguments are known to be in order.
+"""
+
+from __future__ import annotations
+
+import argparse
+import importlib
+import json
+import os
+import shutil
+import sys
+import tempfile
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from grasptypes.commands.settings import add_folder, folder_params
+from grasptypes.errors import InputError
+from grasptypes.objects.units import UNITS_M
+
+URDF = "assets/barrett_hand/barrett_hand.urdf"
+
+
+class Wanted(NamedTuple):
+    """The wanted grasp types, spelled as in tables, and who chose them."""
+
+    types: list[str]
+    chosen_by: Mapping[str, Any] | None
+    """The predictor and its answer; None if they were given."""
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """The options of `plan`."""
+    parser.add_argument("--object", type=Path, required=True, help="a mesh (STL, OBJ, PLY, GLB)")
+    parser.add_argument("--task", required=True, help="what it is grasped for, e.g. use")
+    parser.add_argument(
+        "--unit", choices=UNITS_M, default="m", help="of mesh and contact map (default: m)"
+    )
+    parser.add_argument("--mass-kg", type=_positive, help="default: that of a solid of water")
+    parser.add_argument("--contact-map", type=Path, help="PLY whose red channel says where to hold")
+    parser.add_argument(
+        "--type", action="append", default=[], help="wanted grasp type; default: predicted ones"
+    )
+    parser.add_argument("--output", type=Path, help="new folder (default: <mesh>_<task>_grasps)")
+    parser.add_argument("--sessions", type=_count, help="ways of holding to be searched")
+    parser.add_argument("--jobs", type=_count, default=2, help="processes (default: 2)")
+    parser.add_argument("--json", action="store_true", help="for programs")
+    add_folder(parser)
+
+
+def run(asked: argparse.Namespace) -> str:
+    """The text to show; writes the output folder whole or not at all.
+
+    Raises:
+        InputError: anything wrong with what was asked; then nothing is written.
+    """
+    params = folder_params(asked.folder)
+    if asked.task not in params["tasks"]:
+        allowed = ", ".join(params["tasks"])
+        raise InputError("--task", asked.task, f"unknown; allowed: {allowed}")
+    output = asked.output or Path(f"{asked.object.stem}_{asked.task}_grasps")
+    _check_output(output)
+    with tempfile.TemporaryDirectory() as work:
+        prepared, written = Path(work, "prepared"), Path(work, "written")
+        summary = _plan(asked, params, prepared, written)
+        _move(written, output)
+    if asked.json:
+        return json.dumps(summary, indent=2) + "\n"
+
+    from grasptypes.planning.plan_summary import report
+
+    return report(summary) + f"written to {output}\n"
+
+
+def _plan(
+    asked: argparse.Namespace, params: Mapping[str, Any], prepared: Path, written: Path
+) -> dict[str, Any]:
+    """Do it, in two folders of our own."""
+    from grasptypes.labels.grasp_type import GRASP_TYPES
+    from grasptypes.objects.contact_scan import read_contact_scan
+
+    given = [_known_type(kind, GRASP_TYPES[:-1]) for kind in asked.type]
+    scan = (asked.contact_map, UNITS_M[asked.unit]) if asked.contact_map else None
+    if scan:
+        read_contact_scan(*scan)  # a bad file is told before anything is computed
+    predictor = None if given else _open_predictor(asked, params)
+
+    from grasptypes.files import write_json
+    from grasptypes.planning.plan_contacts import grips_of, plan_contacts
+    from grasptypes.planning.plan_files import write_plan
+    from grasptypes.planning.plan_summary import summarise
+    from grasptypes.planning.planner import Workshop, plan
+
+    name = (asked.object.stem, asked.task)
+    properties = _prepare(asked, params, prepared)
+    wanted = Wanted(given, None) if given else _predict(predictor, name, params, prepared)
+    sessions = asked.sessions or params["plan"]["sessions"]
+    contact_params = {**params["contact_maps"], "sessions": sessions}
+    grips = grips_of(wanted.types)
+    contact_map = plan_contacts(prepared, scan, grips, name, params["seed"], contact_params)
+    _tell(f"searching for {', '.join(wanted.types)} of {name[0]} for {name[1]}")
+    workshop = Workshop(prepared, asked.folder / URDF, name, params["seed"], params)
+    planned = plan(workshop, contact_map, wanted.types, asked.jobs, _tell)
+    written.mkdir()
+    write_plan(planned, written, prepared, params["plan"]["shown"], params)
+    source = asked.contact_map.name if scan else None
+    summary = summarise(planned, wanted.types, wanted.chosen_by, source, properties)
+    write_json(written / "plan.json", summary)
+    return summary
+
+
+def _prepare(asked: argparse.Namespace, params: Mapping[str, Any], folder: Path) -> Any:
+    """Write the object's files; returns its properties."""
+    from grasptypes.objects.mesh_import import import_model
+    from grasptypes.objects.mesh_limits import ImportLimits
+    from grasptypes.objects.preparation import Resolution, prepare
+
+    block = {"file": str(asked.object), "unit": asked.unit}
+    if asked.mass_kg:
+        block["mass_kg"] = asked.mass_kg
+    found = import_model(block, ImportLimits(**params["objects"]["import"]))
+    resolution = Resolution(**params["objects"]["resolution"])
+    return prepare(
+        asked.object.stem, found.model, found.scale, resolution, folder, found.mass_kg,
+        found.repairs,
+    )  # fmt: skip
+
+
+def _open_predictor(asked: argparse.Namespace, params: Mapping[str, Any]) -> Any:
+    from grasptypes.predictors.prediction import check_task, open_predictor
+
+    settings = params["predict"]
+    predictor = open_predictor(asked.folder, settings["labels"], settings["model"])
+    check_task(predictor.card, asked.task)
+    # Before OpenGL: see grasptypes.renderer.
+    importlib.import_module("torchvision")
+    return predictor
+
+
+def _predict(
+    predictor: Any, name: tuple[str, str], params: Mapping[str, Any], prepared: Path
+) -> Wanted:
+    """The types that the predictor chooses for the prepared object; the likeliest if none is."""
+    from grasptypes.objects.object_files import VISUAL
+    from grasptypes.predictors.prediction import ask, describe, wanted_types
+    from grasptypes.renders.mesh_views import views
+
+    count = params["predict"]["views"]
+    pictures = views(prepared / VISUAL, params["renders"], count, name[0])
+    answer = ask(predictor, pictures, name[1], f"{name[0]}, mean of {count} views")
+    types = wanted_types(answer, predictor.card.types)
+    return Wanted(types, describe([answer], predictor.card, name[1]))
+
+
+def _known_type(text: str, allowed: tuple[str, ...]) -> str:
+    """A grasp type as tables spell it, from any spelling with spaces or underscores."""
+    kind = text.replace("_", " ").title()
+    if kind not in allowed:
+        raise InputError("--type", text, f"unknown; allowed: {', '.join(allowed)}")
+    return kind
+
+
+def _check_output(folder: Path) -> None:
+    """Refuse a folder with something in it, and a place where none can be made."""
+    if folder.exists() and (not folder.is_dir() or any(folder.iterdir())):
+        raise InputError(folder, "", "is there already and not empty; name another with --output")
+    above = next(parent for parent in folder.absolute().parents if parent.exists())
+    if not above.is_dir() or not os.access(above, os.W_OK):
+        raise InputError(folder, "", f"cannot be made in {above}")
+
+
+def _move(written: Path, output: Path) -> None:
+    """Put the finished folder in its place in one step."""
+    output.parent.mkdir(parents=True, exist_ok=True)
+    staged = output.with_name(f".{output.name}.{os.getpid()}.tmp")
+    try:
+        shutil.copytree(written, staged)
+        os.replace(staged, output)
+    finally:
+        shutil.rmtree(staged, ignore_errors=True)
+
+
+def _tell(line: str) -> None:
+    sys.stderr.write(f"{line}\n")
+    sys.stderr.flush()
+
+
+def _positive(text: str) -> float:
+    number = float(text)
+    if not 0 < number < float("inf"):
+        raise argparse.ArgumentTypeError(f"{text} is not above 0")
+    return number
+
+
+def _count(text: str) -> int:
+    if not text.isdecimal() or int(text) < 1:
+        raise argparse.ArgumentTypeError(f"{text} is not a whole number from 1 up")
+    return int(text)

@@ -1,0 +1,142 @@
+"""What it buys to choose grasp types before grasps are planned.
+
+Every object and task is planned three times, with as many sessions: with the grips of the types
+that a predictor chooses which has not seen the object, with those of the types that the labels of
+the dataset hold, and with all grips in turn, choosing nothing.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from concurrent.futures import ProcessPoolExecutor
+from multiprocessing import get_context
+from typing import Any, NamedTuple
+
+import numpy as np
+import pandas as pd
+import pandera.pandas as pa
+
+from grasptypes.labels.grasp_type import GRASP_TYPES
+from grasptypes.planning.plan_contacts import grips_of, plan_contacts
+from grasptypes.planning.planner import Planned, Workshop, plan
+
+PREDICTED, LABELLED, ANY = "predicted", "labelled", "any"
+CHOICES = (PREDICTED, LABELLED, ANY)
+
+PLANNING_SCHEMA = pa.DataFrameSchema(
+    {
+        "object": pa.Column(str),
+        "task": pa.Column(str),
+        "choice": pa.Column(str, pa.Check.isin(CHOICES), description="whose types are planned for"),
+        "types": pa.Column(str, description="planned for, separated by semicolons"),
+        "sessions": pa.Column(int, pa.Check.ge(1)),
+        "tests": pa.Column(int, pa.Check.ge(0), description="hands that physics saw"),
+        "valid": pa.Column(int, pa.Check.ge(0)),
+        "valid_predicted": pa.Column(int, pa.Check.ge(0), description="of a predicted type"),
+        "valid_labelled": pa.Column(int, pa.Check.ge(0), description="of a type of the labels"),
+        "energy": pa.Column(float, nullable=True, description="of the best valid grasp"),
+        "energy_predicted": pa.Column(float, nullable=True),
+        "energy_labelled": pa.Column(float, nullable=True),
+    },
+    strict=True,
+    ordered=True,
+    unique=["object", "task", "choice"],
+)
+
+
+class Case(NamedTuple):
+    """One plan to be made."""
+
+    workshop: Workshop
+    choice: str
+    types: Mapping[str, Sequence[str]]
+    """Grasp types by who chooses them, of `CHOICES` without `ANY`."""
+    contact_params: Mapping[str, Any]
+    """The `contact_maps` section of params.yaml, with the sessions to be planned."""
+
+
+def compare(
+    cases: Sequence[Case], jobs: int, tell: Callable[[str], None] = lambda line: None
+) -> pd.DataFrame:
+    """A row a case: a table of `PLANNING_SCHEMA`, the same for any number of jobs."""
+    rows = []
+    for row in _outcomes(cases, jobs):
+        rows.append(row)
+        tell(f"{row['object']} {row['task']}, {row['choice']}: {row['tests']} tests")
+    return pd.DataFrame(rows)
+
+
+def outcome(case: Case) -> dict[str, Any]:
+    """Make one plan and count."""
+    shop = case.workshop
+    types = GRASP_TYPES[:-1] if case.choice == ANY else case.types[case.choice]
+    grips = grips_of(types)
+    contacts = plan_contacts(shop.folder, None, grips, shop.name, shop.seed, case.contact_params)
+    planned = plan(shop, contacts, types, jobs=1, tell=lambda line: None)
+    return {
+        "object": shop.name[0],
+        "task": shop.name[1],
+        "choice": case.choice,
+        "types": "; ".join(types),
+        "sessions": len(planned.grasps),
+        "tests": tests(planned.attempts),
+        **_counts(planned, "", GRASP_TYPES[:-1]),
+        **_counts(planned, "_predicted", case.types[PREDICTED]),
+        **_counts(planned, "_labelled", case.types[LABELLED]),
+    }
+
+
+def tests(attempts: pd.DataFrame) -> int:
+    """How many hands physics saw; under gravity every object moves, if only by micrometres."""
+    return int((attempts.moved_m > 0).sum())
+
+
+def summary(table: pd.DataFrame) -> pd.DataFrame:
+    """A row a choice: tests a valid grasp, and the median energy of the best, by kind of grasp.
+
+    Energies are compared where all three choices have a grasp of that kind.
+    """
+    rows = {}
+    for choice in CHOICES:
+        chosen = table[table.choice == choice].set_index(["object", "task"])
+        row = {"sessions": chosen.sessions.sum(), "tests": chosen.tests.sum()}
+        for kind in ("", "_predicted", "_labelled"):
+            common = table.groupby(["object", "task"])[f"energy{kind}"].agg(_all_there)
+            count = chosen[f"valid{kind}"].sum()
+            row[f"valid{kind}"] = count
+            row[f"tests_per_valid{kind}"] = row["tests"] / count if count else np.nan
+            row[f"energy{kind}"] = chosen[f"energy{kind}"][common].median()
+        rows[choice] = row
+    return pd.DataFrame(rows).T
+
+
+def text(table: pd.DataFrame) -> str:
+    """The summary as Markdown."""
+    kinds = {"": "of any type", "_predicted": "of a predicted type", "_labelled": "of the labels"}
+    totals = summary(table)
+    lines = [
+        "| grips of | tests | " + " | ".join(f"valid {kind}: tests each" for kind in kinds.values())
+        + " | " + " | ".join(f"best energy {kind}" for kind in kinds.values()) + " |",
+        "|---" * (2 + 2 * len(kinds)) + "|",
+    ]  # fmt: skip
+    names = {PREDICTED: "predicted types", LABELLED: "types of the labels", ANY: "all types"}
+    for choice, row in totals.iterrows():
+        valid = [f"{row[f'valid{k}']:.0f}: {row[f'tests_per_valid{k}']:.2f}" for k in kinds]
+        energy = [f"{row[f'energy{k}']:.2f}" for k in kinds]
+        cells = [names[str(choice)], f"{row['tests']:.0f}", *valid, *energy]
+        lines.append("| " + " | ".join(cells) + " |")
+    return "\n".join(lines) + "\n"
+
+
+def _outcomes(cases: Sequence[Case], jobs: int) -> Iterator[dict[str, Any]]:
+    with ProcessPoolExecutor(jobs, mp_context=get_context("spawn")) as pool:
+        yield from pool.map(outcome, cases)
+
+
+def _counts(planned: Planned, suffix: str, types: Sequence[str]) -> dict[str, Any]:
+    found = planned.grasps[planned.grasps.valid & planned.grasps.grasp_type.isin(types)]
+    return {f"valid{suffix}": len(found), f"energy{suffix}": found.energy.min()}
+
+
+def _all_there(energies: pd.Series) -> bool:
+    return bool(energies.notna().all())

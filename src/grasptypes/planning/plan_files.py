@@ -1,0 +1,123 @@
+"""What a plan writes: its tables, the formats of the field, and a picture of the best grasps."""
+
+from __future__ import annotations
+
+import shutil
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+import pandera.pandas as pa
+
+from grasptypes.contact_maps.contact_pictures import studio_of
+from grasptypes.exchange import dexgraspbench, graspit_world, multigrippergrasp
+from grasptypes.exchange.published_csv import format_configuration
+from grasptypes.exchange.records import PosedHands
+from grasptypes.files import write_bytes
+from grasptypes.hand import configuration
+from grasptypes.labels.dataset import DATASET_SCHEMA, VALID, dataset_columns
+from grasptypes.labels.grasp_type import GRASP_TYPES
+from grasptypes.objects.object_files import COLLISION, PROPERTIES, VISUAL
+from grasptypes.planning.planner import Planned
+from grasptypes.renders.gallery import grasp_picture, pose_of
+from grasptypes.renders.renderer import Camera, png_bytes
+from grasptypes.renders.scene import load_parts
+from grasptypes.reports.sheets import Group, Tile, sheet
+from grasptypes.tables import write_table
+
+PICTURE = "grasps.png"
+ATTEMPT_TABLE_SCHEMA = pa.DataFrameSchema(
+    {
+        "session": pa.Column(int, pa.Check.ge(1)),
+        "try": pa.Column(int, pa.Check.ge(1), description="by energy, the best first"),
+        "chosen": pa.Column(bool, description="is the session's grasp"),
+        "reason": pa.Column(str, description="'valid', or why the grasp is invalid"),
+        "shape": pa.Column(str, pa.Check.isin(GRASP_TYPES[:-1]), description="type by the rule"),
+        "branch": pa.Column(str, description="the way through the tree"),
+        "margin": pa.Column(float, pa.Check.ge(0), description="to the nearest threshold"),
+        "energy": pa.Column(float),
+        "penetration_m": pa.Column(float, pa.Check.ge(0)),
+        "moved_m": pa.Column(float, pa.Check.ge(0)),
+        "turned_rad": pa.Column(float, pa.Check.ge(0)),
+        "hand_configuration": pa.Column(str, description="17 numbers"),
+    },
+    strict=True,
+    ordered=True,
+    unique=["session", "try"],
+)
+
+
+def write_plan(
+    planned: Planned, folder: Path, prepared: Path, shown: int, params: Mapping[str, Any]
+) -> None:
+    """Write everything there is to a folder.
+
+    Args:
+        prepared: folder of the object's files, of which those that show and collide are copied.
+        shown: grasps on the picture, at most.
+        params: the whole of params.yaml.
+    """
+    valid = planned.grasps[planned.grasps.valid]
+    pictured = planned.grasps.valid & (np.arange(len(planned.grasps)) < shown)
+    table = planned.grasps.assign(image=np.where(pictured, PICTURE, ""))
+    write_table(dataset_columns(table), folder / "grasps.csv", DATASET_SCHEMA)
+    write_table(_attempt_table(planned.attempts), folder / "attempts.csv", ATTEMPT_TABLE_SCHEMA)
+    for name in (VISUAL, COLLISION, PROPERTIES):
+        (folder / "object").mkdir(exist_ok=True)
+        shutil.copyfile(prepared / name, folder / "object" / name)
+    if len(valid):
+        write_formats(posed(valid), folder)
+        picture = draw_best(valid.head(shown), prepared / VISUAL, params)
+        write_bytes(folder / PICTURE, picture)
+
+
+def posed(grasps: pd.DataFrame) -> PosedHands:
+    """Grasps of one object as all formats of the field take them."""
+    numbers = np.stack(grasps.hand_configuration.tolist())
+    angles = np.stack(grasps.joint_angles_rad.tolist()).astype(np.float64)
+    T_object_hand = configuration.unpack(numbers).T_object_hand
+    return PosedHands(str(grasps.object.iloc[0]), T_object_hand, angles, grasps.valid.to_numpy())
+
+
+def write_formats(hands: PosedHands, folder: Path) -> None:
+    """GraspIt! worlds, MultiGripperGrasp JSON and DexGraspBench npy, numbered by rank from 1."""
+    multigrippergrasp.write_grasps(folder / "multigrippergrasp.json", hands)
+    for index in range(len(hands.held)):
+        file = f"grasp_{index + 1:02}"
+        body = f"models/objects/{hands.object_name}.xml"
+        graspit_world.write_world(folder / "graspit" / f"{file}.xml", hands, index, body)
+        dexgraspbench.write_grasp(
+            folder / "dexgraspbench" / f"{file}.npy", hands, index, 1.0, "object"
+        )
+
+
+def draw_best(grasps: pd.DataFrame, visual: Path, params: Mapping[str, Any]) -> bytes:
+    """A PNG of the grasps, each under its rank, type and energy."""
+    settings = params["gallery"]
+    studio = studio_of(params["renders"], settings["size_px"])
+    parts, tiles = load_parts(visual), []
+    with Camera(studio) as camera:
+        for _, row in grasps.iterrows():
+            picture = grasp_picture(parts, *pose_of(row), camera, settings["elevation_rad"])
+            caption = f"{row['rank'] + 1}: {row.grasp_type}, energy {row.energy:.2f}"
+            tiles.append(Tile(picture, caption))
+    columns = min(len(tiles), settings["columns"] // 2)
+    picture = sheet([Group("", tiles)], columns, settings["tile_px"])
+    return png_bytes(picture, studio.png_compression)
+
+
+def _attempt_table(attempts: pd.DataFrame) -> pd.DataFrame:
+    table = pd.DataFrame(
+        {
+            "session": attempts.session,
+            "try": attempts["rank"] + 1,
+            "chosen": attempts.chosen,
+            "reason": attempts.reason.where(~attempts.valid, VALID),
+            **{name: attempts[name] for name in ("shape", "branch", "margin", "energy")},
+            **{name: attempts[name] for name in ("penetration_m", "moved_m", "turned_rad")},
+        }
+    ).round(9)
+    cells = [format_configuration(numbers) for numbers in attempts.hand_configuration]
+    return table.assign(hand_configuration=cells)

@@ -1,0 +1,37 @@
+"""The grasp types that predictors choose for objects they have not seen."""
+
+from __future__ import annotations
+
+import pandas as pd
+
+from grasptypes.labels.samples import TYPES
+from grasptypes.predictors.metrics import softmax
+from grasptypes.predictors.prediction import Answer, sigmoid, wanted_types
+from grasptypes.predictors.problem import Problem
+from grasptypes.predictors.protocol import try_splits
+from grasptypes.predictors.training import members_by_group
+
+
+def unseen_types(problem: Problem, seeds: int, seed: int) -> dict[tuple[str, str], list[str]]:
+    """Chosen types of every object and task, from predictors trained on all other objects.
+
+    The views' answers are averaged, as for a user's mesh.
+
+    Args:
+        seeds: predictors an object, whose answers are averaged too.
+        seed: added to every draw.
+    """
+    examples = problem.examples
+    members = members_by_group(examples.index["object"], seeds)
+    key = ("unseen", problem.model, seed)
+    predictions = try_splits(examples, members, problem.recipe, key, problem.backbone).predictions
+    return {
+        (str(name), str(task)): _types(rows)
+        for (name, task), rows in predictions.groupby(["object", "task"])
+    }
+
+
+def _types(rows: pd.DataFrame) -> list[str]:
+    logits = rows[[f"logit_{kind}" for kind in TYPES]].to_numpy()
+    answer = Answer("", softmax(logits).mean(axis=0), sigmoid(logits).mean(axis=0))
+    return wanted_types(answer, TYPES)

@@ -1,0 +1,261 @@
+"""A plan for one mesh: the sessions, the order of the grasps, the files, and what is refused."""
+
+import json
+from types import SimpleNamespace
+
+import numpy as np
+import pandas as pd
+import pytest
+import trimesh
+from learning import ROOT, small_checkout
+from PIL import Image
+
+from grasptypes.__main__ import main
+from grasptypes.commands.plan import _prepare
+from grasptypes.exchange import dexgraspbench, graspit_world, multigrippergrasp
+from grasptypes.labels.grasp_type import GRASP_TYPES
+from grasptypes.labels.published import read_published
+from grasptypes.params import read_yaml
+from grasptypes.planning.plan_contacts import grips_of, plan_contacts
+from grasptypes.planning.planner import choose, ranked
+from grasptypes.predictors.weights import WEIGHTS_VARIABLE
+
+SESSIONS = 3
+SMALL = {
+    "renders": {"size_px": 96},
+    "predict": {"views": 2},
+    "gallery": {"size_px": 64, "tile_px": 64},
+    "synthesis": {"candidates": {"number": 150}, "refinement": {"rounds": 1}},
+    "contact_maps": {"points": 1500},
+    "objects": {
+        "resolution": {"surface_edge_m": 0.006, "grid_spacing_m": 0.004},
+        "import": {"rebuild_cells": 24},
+    },
+    "plan": {"sessions": SESSIONS, "shown": 2},
+}
+
+
+@pytest.fixture(scope="module")
+def checkout(tmp_path_factory):
+    root = tmp_path_factory.mktemp("checkout")
+    small_checkout(root, SMALL)
+    (root / "assets").symlink_to(ROOT / "assets")
+    return root
+
+
+@pytest.fixture(scope="module")
+def mesh(tmp_path_factory):
+    """A bottle-like cylinder in millimetres, and a map that is warm around its upper half."""
+    folder = tmp_path_factory.mktemp("mesh")
+    tube = trimesh.creation.cylinder(30, 160, sections=48)
+    tube.export(folder / "tube.stl")
+    fine = trimesh.Trimesh(*trimesh.remesh.subdivide_to_size(tube.vertices, tube.faces, 4))
+    warm = np.where(np.abs(fine.vertices[:, 2] - 40) < 30, 250, 20)
+    colours = np.column_stack([warm, warm, warm, np.full(len(warm), 255)]).astype(np.uint8)
+    fine.visual = trimesh.visual.ColorVisuals(fine, vertex_colors=colours)
+    fine.export(folder / "warm.ply")
+    return folder / "tube.stl"
+
+
+def plan(checkout, mesh, output, *more):
+    asked = ["plan", "--folder", checkout, "--object", mesh, "--unit", "mm", "--output", output]
+    main([str(word) for word in [*asked, *(more or ("--task", "use")), "--jobs", "1"]])
+
+
+@pytest.fixture(scope="module")
+def planned(checkout, mesh, tmp_path_factory):
+    """Folder of a plan for a given type."""
+    output = tmp_path_factory.mktemp("plan") / "new" / "grasps"
+    plan(checkout, mesh, output, "--task", "use", "--type", "power_sphere")
+    return output
+
+
+def test_tables_can_be_read_as_the_published_one(planned):
+    table = read_published(planned / "grasps.csv")
+    assert len(table) == SESSIONS
+    assert table["rank"].tolist() == [1, 2, 3]
+    assert [numbers[0] for numbers in table.hand_configuration] == [0, 1, 2]
+    assert sorted(table.session) == [1, 2, 3]
+    ours = pd.read_csv(planned / "grasps.csv")
+    assert ((ours.GraspType == "Invalid") == (ours.reason != "valid")).all()
+    assert ours.branch.str.startswith(("power: ", "precision: ")).all()
+
+
+def test_every_try_has_a_reason(planned):
+    grasps, attempts = (pd.read_csv(planned / f"{n}.csv") for n in ("grasps", "attempts"))
+    assert len(attempts) == grasps.tries.sum()
+    assert not attempts.reason.isna().any()
+    assert sorted(attempts[attempts.chosen].session) == sorted(grasps.Session)
+    held = attempts[attempts.reason == "valid"].session
+    assert set(held) == set(grasps[grasps.reason == "valid"].Session)
+    assert (attempts.hand_configuration.str.count(",") == 16).all()
+
+
+def test_the_formats_of_the_field_hold_the_same_hands(planned):
+    table = pd.read_csv(planned / "grasps.csv")
+    valid = table[table.reason == "valid"]
+    hands = multigrippergrasp.read_grasps(planned / "multigrippergrasp.json")
+    assert len(valid) > 0
+    assert len(hands.held) == len(valid)
+    for number in range(len(valid)):
+        world = graspit_world.read_world(planned / f"graspit/grasp_{number + 1:02}.xml")
+        grasp = dexgraspbench.read_grasp(planned / f"dexgraspbench/grasp_{number + 1:02}.npy")
+        for other in (world, grasp):
+            np.testing.assert_allclose(
+                other.T_object_hand[0], hands.T_object_hand[number], atol=1e-6
+            )
+    with Image.open(planned / "grasps.png") as picture:
+        assert picture.width == 64 * min(2, len(valid))
+    assert trimesh.load(planned / "object/visual.glb").extents.max() == pytest.approx(0.16)
+
+
+def test_the_same_again_with_two_processes_and_as_json(planned, checkout, mesh, tmp_path, capsys):
+    asked = ("--task", "use", "--type", "Power Sphere", "--json", "--jobs", "2")
+    main(
+        ["plan", "--folder", str(checkout), "--object", str(mesh), "--unit", "mm"]
+        + ["--output", str(tmp_path / "again"), *asked]
+    )
+    shown = capsys.readouterr()
+    assert json.loads(shown.out) == json.loads((planned / "plan.json").read_text())
+    assert shown.err.count("session ") == SESSIONS
+    for file in sorted(path for path in planned.rglob("*") if path.is_file()):
+        assert (tmp_path / "again" / file.relative_to(planned)).read_bytes() == file.read_bytes()
+
+
+def test_the_predictor_chooses_types_if_none_is_given(
+    checkout, mesh, tmp_path, capsys, monkeypatch
+):
+    monkeypatch.setenv(WEIGHTS_VARIABLE, str(checkout / "random.pth"))
+    monkeypatch.chdir(tmp_path)
+    few = ("--task", "handoff", "--sessions", "1", "--contact-map", mesh.parent / "warm.ply")
+    asked = ["plan", "--folder", checkout, "--object", mesh, "--unit", "mm", *few, "--jobs", "1"]
+    main([*map(str, asked)])
+    assert "(chosen by task_vector, simulated labels)" in capsys.readouterr().out
+    said = json.loads((tmp_path / "tube_handoff_grasps/plan.json").read_text())
+    (answer,) = said["chosen_by"]["answers"]
+    chosen = [kind.replace("_", " ").title() for kind in answer["chosen"]]
+    likeliest = max(answer["probability"], key=answer["probability"].get)
+    assert said["wanted_types"] == (chosen or [likeliest.replace("_", " ").title()])
+    assert said["contact_map"] == "warm.ply"
+
+
+def test_wanted_grips_take_turns_where_it_is_warm(checkout, mesh, tmp_path):
+    params = read_yaml(checkout / "params.yaml")
+    prepared = _prepared(mesh, params, tmp_path)
+    settings = {**params["contact_maps"], "sessions": 8}
+    scan = (mesh.parent / "warm.ply", 0.001)
+    grips = grips_of(["Large Wrap", "Small Wrap", "Precision"])
+    assert grips == ("wrap", "pinch")
+    warm = plan_contacts(prepared, scan, grips, ("tube", "use"), 0, settings)
+    assert sorted(warm.grip) == ["pinch"] * 4 + ["wrap"] * 4
+    anywhere = plan_contacts(prepared, None, grips, ("tube", "use"), 0, settings)
+    height = [(m.sessions * m.points[:, 2]).sum() / m.sessions.sum() for m in (warm, anywhere)]
+    assert height[0] > 0.03 > abs(height[1])
+    assert (anywhere.probability == 1).all()
+
+
+def _prepared(mesh, params, folder):
+    _prepare(SimpleNamespace(object=mesh, unit="mm", mass_kg=0.1), params, folder)
+    return folder
+
+
+def test_wanted_types_come_first_and_failures_last():
+    table = pd.DataFrame(
+        {
+            "grasp_type": ["Precision", "Invalid", "Small Wrap", "Small Wrap"],
+            "valid": [True, False, True, True],
+            "energy": [0.1, 0.0, 0.5, 0.4],
+            "session": [1, 2, 3, 4],
+            "rank": [0, 5, 1, 2],
+            "hand_configuration": [[float(k), *[0.5] * 16] for k in (0, 5, 1, 2)],
+        }
+    )
+    order = ranked(table, ["Small Wrap"])
+    assert order.session.tolist() == [4, 3, 1, 2]
+    assert order["rank"].tolist() == [0, 1, 2, 3]
+    assert order.pose_index.tolist() == [2, 1, 0, 5]
+    assert [numbers[0] for numbers in order.hand_configuration] == [0, 1, 2, 3]
+
+
+def test_a_session_gives_its_grasp_of_a_wanted_type():
+    columns = ["session", "grasp_type", "valid", "chosen", "energy"]
+    rows = [
+        (1, "Precision", True, False, 0.1),
+        (1, "Small Wrap", True, False, 0.3),
+        (1, "Small Wrap", True, False, 0.2),
+        (1, "Large Wrap", True, True, 0.4),
+        (2, "Invalid", False, True, 0.5),
+        (2, "Invalid", False, False, 0.4),
+        (3, "Small Wrap", True, False, 0.1),
+        (3, "Small Wrap", True, True, 0.9),
+    ]
+    attempts = pd.DataFrame(rows, columns=columns)
+    for types, expected in (["Small Wrap"], [2, 4, 7]), (["Power Sphere"], [3, 4, 7]):
+        chosen = choose(attempts, types).chosen
+        assert np.flatnonzero(chosen).tolist() == expected
+
+
+def _open_shell(folder):
+    half = trimesh.creation.icosphere(subdivisions=3, radius=0.05)
+    half.update_faces(half.triangles_center[:, 2] > 0)
+    half.export(folder / "shell.stl")
+    return folder / "shell.stl"
+
+
+def _colourless(folder):
+    trimesh.creation.box((0.05, 0.05, 0.05)).export(folder / "plain.ply")
+    return folder / "plain.ply"
+
+
+@pytest.mark.parametrize(
+    ("change", "expected"),
+    [
+        ({"--task": "fly"}, "error: --task: fly: unknown; allowed: use, handoff"),
+        ({"--type": "Hug"}, "error: --type: Hug: unknown; allowed: Large Wrap, "),
+        ({"--type": "Invalid"}, "error: --type: Invalid: unknown"),
+        ({"--object": "gone.stl"}, "gone.stl: no such file"),
+        ({"--object": "notes.txt"}, "not a mesh format"),
+        ({"--object": _open_shell}, "is an open shell without volume"),
+        ({"--unit": "m"}, "unit: the object would be 160 m long"),
+        ({"--contact-map": "gone.ply"}, "gone.ply: no such file"),
+        ({"--contact-map": "notes.txt"}, "is no contact map"),
+        ({"--contact-map": _colourless}, "has no colour a vertex"),
+        ({"--output": "full"}, "full: is there already and not empty"),
+        ({"--output": "notes.txt/grasps"}, "cannot be made in"),
+        ({"--folder": "full"}, "params.yaml: no such file; name a checkout"),
+    ],
+)
+def test_bad_input_is_one_line_and_nothing_is_written(
+    checkout, mesh, tmp_path, monkeypatch, capsys, change, expected
+):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "notes.txt").write_text("no mesh")
+    (tmp_path / "full").mkdir()
+    (tmp_path / "full/old.csv").touch()
+    change = {k: str(v(tmp_path)) if callable(v) else v for k, v in change.items()}
+    if change.get("--object", "").endswith("shell.stl"):
+        change["--unit"] = "m"
+    asked = {"--folder": checkout, "--object": mesh, "--unit": "mm", "--task": "use"}
+    asked |= {"--type": "Precision", "--output": "grasps"} | change
+    before = sorted(tmp_path.rglob("*"))
+    with pytest.raises(SystemExit) as end:
+        main(["plan", *(str(word) for pair in asked.items() for word in pair)])
+    assert isinstance(end.value.code, str)  # status 1
+    assert expected in end.value.code
+    assert "\n" not in end.value.code
+    assert "Traceback" not in capsys.readouterr().err
+    assert sorted(tmp_path.rglob("*")) == before
+
+
+def test_a_predictor_that_is_missing_is_named(mesh, tmp_path, monkeypatch):
+    root = tmp_path / "bare"
+    root.mkdir()
+    small_checkout(root, SMALL)
+    (root / "models/simulated/task_vector/predictor.json").unlink()
+    with pytest.raises(SystemExit, match=r"predictor\.json: is not trained yet"):
+        plan(root, mesh, tmp_path / "out", "--task", "use")
+    assert not (tmp_path / "out").exists()
+
+
+def test_all_types_have_a_grip():
+    assert set(grips_of(GRASP_TYPES[:-1])) == {"wrap", "enclose", "tripod", "pinch"}
