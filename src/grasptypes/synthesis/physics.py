@@ -115,6 +115,7 @@ class Physics:
             physicsClientId=client,
         )
         self._number_joints(hand)
+        self._let_own_links_pass(hand)
         for joint, angle in zip(self._joints, angles, strict=True):
             pybullet.resetJointState(hand, joint, angle, physicsClientId=client)
         thing = self._load_object(inverse(T_object_hand))
@@ -129,6 +130,19 @@ class Physics:
         count, client = pybullet.getNumJoints(hand, physicsClientId=self._client), self._client
         names = [pybullet.getJointInfo(hand, n, physicsClientId=client)[1] for n in range(count)]
         self._joints = [names.index(name.encode()) for name in kinematics.JOINT_NAMES]
+
+    def _let_own_links_pass(self, hand: int) -> None:
+        """Ignore collisions of a finger's links with one link between them, as the search does.
+
+        They are never in each other's way, but a folded finger lies closer to the palm than
+        Bullet's skins are thick, which would bend the spread beyond its limit.
+        """
+        knuckles, bases, tips = self._joints[:2], self._joints[BASES], self._joints[TIPS]
+        pairs = [(-1, base) for base in bases[:2]] + list(zip(knuckles, tips[:2], strict=True))
+        for one, other in pairs:
+            pybullet.setCollisionFilterPair(
+                hand, hand, one, other, enableCollision=0, physicsClientId=self._client
+            )
 
     def _load_object(self, T_hand_object: Array) -> int:
         body, client = self._body, self._client

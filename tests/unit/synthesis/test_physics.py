@@ -66,6 +66,13 @@ def test_a_base_that_is_stopped_lets_its_tip_go_on(body) -> None:
     assert lead.max() > 0.012
 
 
+def test_a_folded_finger_does_not_push_itself_off_the_palm(body) -> None:
+    fist = kinematics.couple([0.0, 2.2, 2.2, 0.0])
+    with physics(URDF, body, SETTINGS) as world:
+        held = world.hold(palm_at(5.0)[0], fist)
+    np.testing.assert_allclose(held.joint_angles_rad[:2], 0.0, atol=0.002)
+
+
 def test_nothing_holds_without_friction_from_below_or_far_away(body) -> None:
     upside_down = GOOD[0].copy()
     upside_down[2, 3] = 0.3
