@@ -8,7 +8,7 @@ from benchmarks.records import Record, ancestors, busy_s, peaks_mb, read_records
 
 
 def record(rule="a", inputs=(), begun_s=0.0, ended_s=1.0):
-    return Record(rule, tuple(inputs), begun_s, ended_s)
+    return Record(rule, 1, list(inputs), begun_s, ended_s)
 
 
 @pytest.mark.parametrize(
@@ -37,7 +37,7 @@ def test_ancestors_are_what_a_file_was_made_from():
 
 def test_records_are_read_by_the_file_they_are_about(tmp_path):
     name = base64.b64encode(b"data/a.csv").decode()
-    content = {"rule": "a", "input": ["b"], "starttime": 1.0, "endtime": 2.5, "more": None}
+    content = {"rule": "a", "job_hash": 1, "input": ["b"], "starttime": 1.0, "endtime": 2.5}
     (tmp_path / name).write_text(json.dumps(content))
     assert read_records(tmp_path) == {"data/a.csv": record("a", ["b"], 1.0, 2.5)}
 
