@@ -1,13 +1,18 @@
 # What choosing grasp types first buys; not part of the main job: snakemake -j2 reports/planning.csv
+from types import SimpleNamespace
+
+ASKED = SimpleNamespace(labels=config["predict"]["labels"])
 
 
 rule compare_plans:
     input:
-        inputs=LEARNING_INPUTS,
-        samples=SAMPLES[config["predict"]["labels"]],
+        inputs=lambda wildcards: learning_inputs(ASKED),
+        samples=SAMPLES[ASKED.labels],
         folds=rules.split_folds.output.folds,
         backbone=rules.prepare_backbone.output.record,
-        objects=expand(rules.prepare_object.output.properties, object=OBJECTS),
+        objects=lambda wildcards: expand(
+            rules.prepare_object.output, object=KNOWN[ASKED.labels].objects
+        ),
         hand="assets/barrett_hand/barrett_hand.urdf",
     output:
         table="reports/planning.csv",
@@ -24,7 +29,6 @@ rule compare_plans:
             key: config[key]
             for key in (
                 "seed",
-                "tasks",
                 "contact_maps",
                 "synthesis",
                 "physics",
@@ -34,7 +38,8 @@ rule compare_plans:
                 "plan",
             )
         },
-        hand=folder_hash("assets/barrett_hand"),
+        tasks=lambda wildcards: learning_tasks(ASKED),
+        hand=hand_hashes("assets/barrett_hand"),
         code=script_hash("compare_plans"),
     message:
         "Planning with types chosen first and without"

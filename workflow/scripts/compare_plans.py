@@ -24,18 +24,22 @@ from grasptypes.tables import write_table
 
 
 def cases(
-    inputs: Mapping[str, Any], folders: Mapping[str, str], params: Mapping[str, Any]
+    inputs: Mapping[str, Any],
+    folders: Mapping[str, Path],
+    tasks: Mapping[str, Mapping[str, int]],
+    params: Mapping[str, Any],
 ) -> Sequence[Case]:
     """All plans to be made.
 
     Args:
         inputs: those of `read_problem`, and the hand's URDF.
         folders: of the prepared objects, by name.
-        params: the whole of params.yaml.
+        tasks: the section of params.yaml, those that the labels know.
+        params: the other sections.
     """
     settings = params["plan"]["comparison"]
     model = params["predict"]["labels"], params["predict"]["model"]
-    problem = read_problem(inputs, model, params["tasks"], params["predictors"])
+    problem = read_problem(inputs, model, tasks, params["predictors"])
     predicted = unseen_types(problem, settings["seeds"], params["seed"])
     contact_params = {**params["contact_maps"], "sessions": settings["sessions"]}
     found = []
@@ -44,18 +48,19 @@ def cases(
         kinds = [spelled(label.removeprefix("label_")) for label in LABELS if getattr(row, label)]
         chosen = predicted.get(name) or predicted[name[0], ""]  # "" where the model sees no task
         types = {PREDICTED: chosen, LABELLED: kinds}
-        folder = Path(folders[name[0]])
-        shop = Workshop(folder, Path(inputs["hand"]), name, params["seed"], params)
+        shop = Workshop(folders[name[0]], Path(inputs["hand"]), name, params["seed"], params)
         found += [Case(shop, choice, types, contact_params) for choice in CHOICES]
     return found
 
 
 if __name__ == "__main__":
     with job(snakemake.log) as log:
-        folders = {Path(file).parent.name: Path(file).parent for file in snakemake.input.objects}
-        inputs = dict(snakemake.input.items())
-        table = compare(
-            cases(inputs, folders, snakemake.params.params), snakemake.threads, log.info
+        plans = cases(
+            dict(snakemake.input.items()),
+            {Path(file).parent.name: Path(file).parent for file in snakemake.input.objects},
+            snakemake.params.tasks,
+            snakemake.params.params,
         )
+        table = compare(plans, snakemake.threads, log.info)
         write_table(table, snakemake.output.table, PLANNING_SCHEMA)
         write_text(snakemake.output.markdown, text(table))
