@@ -88,7 +88,8 @@ report: setup ## the results with captions as one HTML page that opens offline: 
 	@mkdir -p build
 	python -m grasptypes.reports.timing
 	snakemake all $$(test -f build/timing.png && echo timing) $$(ls 2>/dev/null reports/replay.csv \
-	    reports/object_shapes.csv reports/figures/label_confusion.png) --report build/report.html
+	    reports/object_shapes.csv reports/figures/label_confusion.png) --report build/report.html \
+	    --report-stylesheet workflow/report/page.css
 
 clean: ## remove what can be rebuilt outside the data: logs, demo, caches
 	rm -rf build logs .pytest_cache .ruff_cache .mypy_cache

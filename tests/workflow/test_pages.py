@@ -24,14 +24,22 @@ from browser import (
 )
 from selenium.webdriver import Chrome
 
+from grasptypes.predictors.metrics import METRICS
+
 pytestmark = pytest.mark.skipif(bool(missing_programs()), reason=missing_programs())
 
+LABELS = ("simulated", "published")
 MODELS = ("no_task", "task_vector", "task_in_image", "ignores_task")
 CATEGORIES = ["Folds", "Grasp types", "Grasps", "Objects", "Results", "Timing", "Unseen objects"]
 # What shows a result in the list of a category; tables are downloaded instead.
 VIEW = "[...document.querySelectorAll('nav tbody td > div')].map(d => d.firstChild)"
 SHOWN = "[...document.querySelectorAll('img')].filter(i => i.closest('nav') === null)[0]"
+# The runs that the table of MLflow shows, and how many of them have a value for a metric.
 RUNS = "[...document.querySelectorAll('[role=row] a')].filter(a => a.href.includes('/runs/'))"
+NAMES = f"{RUNS}.map(a => a.innerText.trim())"
+CELLS = """[...document.querySelectorAll('[role=gridcell]')].filter(
+    c => c.getAttribute('col-id') === 'metrics.`' + arguments[0] + '`' && c.innerText.trim()
+).length"""
 
 
 @pytest.fixture(scope="module")
@@ -83,15 +91,25 @@ def _click_through(driver: Chrome, category: str, folder: Path) -> int:
 def test_the_runs_fold_below_their_models_and_show_the_measures(
     complete: Repository, chromium: Chrome, tmp_path: Path
 ) -> None:
+    models = sorted(f"{labels} {model}" for labels in LABELS for model in MODELS)
+    folds = [f"fold {fold}, seed 0" for fold in range(2)]
     with served_runs(complete) as link:
         chromium.get(link)
-        parents = [
-            f"{s} {m}"
-            for s in ("simulated", "published")
-            for m in ("no_task", "task_in_image", "task_vector", "ignores_task")
-        ]
-        wait_for(chromium, f"{RUNS}.length >= {len(parents)}")
-        names = chromium.execute_script(f"return {RUNS}.map(a => a.innerText.trim())")
+        wait_for(chromium, f"{RUNS}.length >= arguments[0]", len(models))
+        assert sorted(chromium.execute_script(f"return {NAMES}")) == models
+        for measure in METRICS:
+            assert chromium.execute_script(f"return {CELLS}", measure) == len(models), measure
         chromium.save_screenshot(str(tmp_path / "runs.png"))
-        assert sorted(filter(None, names)) == sorted(parents)
+
+        unfold = f"{RUNS}[0].closest('[role=row]').querySelector('button').click()"
+        chromium.execute_script(unfold)
+        wait_for(chromium, f"{RUNS}.length > arguments[0]", len(models))
+        assert sorted(chromium.execute_script(f"return {NAMES}")) == sorted(models + folds)
+        chromium.save_screenshot(str(tmp_path / "folds.png"))
+
+        chromium.execute_script(f"{RUNS}[0].click()")
+        wait_for(chromium, "document.body.innerText.includes('Child runs')")
+        text = chromium.execute_script("return document.body.innerText")
+        assert all(measure in text for measure in METRICS)
+        chromium.save_screenshot(str(tmp_path / "run.png"))
     assert foreign_hosts(chromium) == set()

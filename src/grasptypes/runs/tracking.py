@@ -179,8 +179,7 @@ class OpenStore:
 
     def offer_view(self, metrics: Sequence[str]) -> None:
         """Keep a view of the runs that has these metrics as columns."""
-        columns = ["attributes.`Created`", *(f"metrics.`{name}`" for name in metrics)]
-        state = json.dumps({"selectedColumns": columns})
+        state = json.dumps({"selectedColumns": [f"metrics.`{name}`" for name in metrics]})
         self._client.set_experiment_tag(self._experiment, VIEW_TAG, state)
 
     def log_model(self, run: str, key: str, model: LoggedModel) -> bool:

@@ -5,7 +5,7 @@ import pandas as pd
 
 from grasptypes.hand import configuration, kinematics
 from grasptypes.hand.visuals import link_visuals
-from grasptypes.renders.gallery import best_grasp, hand_parts
+from grasptypes.renders.gallery import best_grasp, hand_parts, pose_of
 
 ANGLES = kinematics.couple(np.radians([[30.0, 60.0, 60.0, 60.0]]))[0]
 
@@ -24,7 +24,7 @@ def grasp(energy, valid, height_m):
 
 def test_the_best_grasp_is_the_valid_one_of_lowest_energy():
     grasps = pd.DataFrame([grasp(3, True, 0.3), grasp(1, False, 0.1), grasp(2, True, 0.2)])
-    T_object_hand, angles = best_grasp(grasps)
+    T_object_hand, angles = pose_of(best_grasp(grasps))
     assert T_object_hand[2, 3] == 0.2
     np.testing.assert_allclose(angles, ANGLES)
     assert best_grasp(grasps[~grasps.valid]) is None

@@ -114,7 +114,8 @@ def test_two_processes_on_a_new_file(tmp_path):
         "from test_tracking import PARENT, Store, publish\n"
         "publish(Store(sys.argv[1], 'test', 60), [PARENT], {})\n"
     )
-    paths = [str(Path(__file__).parents[1]), str(Path(__file__).parents[3] / "src")]
+    here = Path(__file__)
+    paths = [str(path) for path in (here.parent, here.parents[1], here.parents[3] / "src")]
     command = [sys.executable, "-c", code, str(tmp_path / "mlflow.db"), *paths]
     processes = [subprocess.Popen(command, stderr=subprocess.PIPE) for _ in range(2)]
     assert [(p.communicate()[1][-300:], p.returncode)[1] for p in processes] == [0, 0]
