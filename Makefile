@@ -33,9 +33,12 @@ demo: setup ## the whole pipeline on 2 objects, in build/demo
 	python -m grasptypes.versions.checkout . build/demo --params tests/small.yaml
 	cd build/demo && snakemake -j$(JOBS) reports/table1.csv && cat reports/table1.md
 
-.PHONY: generalisation scaling
+.PHONY: generalisation scaling test-own
 generalisation: setup ## what more shapes of every object buy on unseen objects: reports/generalisation.csv
 	snakemake -j$(JOBS) reports/generalisation.csv
+
+test-own: setup ## three tasks, four objects, one of them a mesh with a measured contact map: to Table I
+	pytest -m slow tests/workflow/test_own_things.py
 
 scaling: setup ## time and memory against the number of objects: reports/scaling.csv
 	python benchmarks/scaling.py
