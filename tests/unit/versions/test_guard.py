@@ -7,7 +7,13 @@ from pathlib import Path
 import pytest
 
 from grasptypes.errors import InputError
-from grasptypes.versions.guard import check_cache_links, release_dead_lock, remove_leftovers
+from grasptypes.versions.guard import (
+    COMMON_INSTRUCTIONS,
+    check_cache_links,
+    processor_features,
+    release_dead_lock,
+    remove_leftovers,
+)
 
 HOLDER = """
 import sys, time
@@ -90,3 +96,21 @@ def test_a_cache_of_links_is_refused(tmp_path: Path, types: str) -> None:
 def test_copies_and_reflinks_are_fine(tmp_path: Path) -> None:
     check_cache_links(tmp_path)
     check_cache_links(Path(__file__).parents[3])
+
+
+def test_the_processors_features_are_read(tmp_path: Path) -> None:
+    description = tmp_path / "cpuinfo"
+    description.write_text("processor\t: 0\nflags\t\t: fpu avx2 fma\nbugs\t\t: none\n")
+    assert processor_features(description) == {"fpu", "avx2", "fma"}
+    assert processor_features(tmp_path / "none") == set()
+
+
+@pytest.mark.skipif("avx2" not in processor_features(), reason="this processor has no AVX2")
+def test_linear_algebra_keeps_to_the_common_instructions() -> None:
+    code = "import numpy, threadpoolctl; print(threadpoolctl.threadpool_info()[0]['architecture'])"
+    environment = {**os.environ, **COMMON_INSTRUCTIONS}
+    result = subprocess.run(
+        [sys.executable, "-W", "error::ImportWarning", "-c", code],
+        env=environment, capture_output=True, text=True, check=False,
+    )  # fmt: skip
+    assert result.stdout == "Haswell\n", result.stderr
