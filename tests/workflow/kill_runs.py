@@ -54,10 +54,12 @@ def processes_in(root: Path) -> list[int]:
 
 def undisturbed(folder: Path) -> tuple[Repository, float]:
     """The run that nobody killed, computed once, and how long it takes."""
-    repository, noted = Repository(folder / "undisturbed"), folder / "seconds.json"
+    fresh, repository = Repository(folder / "fresh"), Repository(folder / "undisturbed")
+    noted = folder / "seconds.json"
     if not noted.exists():
-        Repository.create(folder / "fresh")
-        repository = Repository(folder / "fresh").copy(folder / "undisturbed")
+        for path in (fresh.path, repository.path):
+            shutil.rmtree(path, ignore_errors=True)
+        Repository.create(fresh.path).copy(repository.path)
         begun = time.monotonic()
         repository.run(*RUN)
         noted.write_text(json.dumps(time.monotonic() - begun))
@@ -108,27 +110,34 @@ def faults(repository: Repository, expected: Repository) -> list[str]:
 
 
 def disturb(folder: Path, seed: int, number: int, kills: int) -> list[str]:
-    """Kill one run, and its restarts, that many times in all; prints when, and what came of it."""
+    """Kill one run, and its restarts, that many times in all; prints when, and what came of it.
+
+    What was done is noted, so that this script itself can be stopped and started again.
+    """
     expected, whole_s = undisturbed(folder)
     draw = random.Random(f"{seed} {number}")
-    repository = Repository(folder / "fresh").copy(folder / f"run_{number}")
-    told: list[str] = []
+    # Moments of the whole run, or of its part that is left to each kill on average.
+    moments_s = [draw.uniform(0, whole_s / kills) for _ in range(kills)]
+    repository, noted = Repository(folder / f"run_{number}"), folder / f"run_{number}.json"
+    told = json.loads(noted.read_text()) if noted.exists() else []
     while len(told) < kills:
-        # Moments of the whole run, or of its part that is left to each kill on average.
-        moment_s = draw.uniform(0, whole_s / kills)
-        if kill_after(repository, moment_s):
-            told.append(f"{moment_s:.1f} s ({len(checksums(repository.path))} files)")
-        else:  # today the machine is faster: once more from nothing
-            told.clear()
-            shutil.rmtree(repository.path)
+        if not repository.path.exists():
             Repository(folder / "fresh").copy(repository.path)
+        if kill_after(repository, moments_s[len(told)]):
+            there = len(checksums(repository.path))
+            told.append(f"{moments_s[len(told)]:.1f} s ({there} files)")
+        else:  # today the machine is faster: once more from nothing, and sooner
+            told, moments_s = [], [0.8 * moment for moment in moments_s]
+            shutil.rmtree(repository.path)
+        noted.write_text(json.dumps(told))
     found = faults(repository, expected)
-    moments, files = ", ".join(told), len(checksums(expected.path))
-    line = f"run {number} of {whole_s:.0f} s and {files} files, killed after {moments}: "
+    files = len(checksums(expected.path))
+    line = f"run {number} of {whole_s:.0f} s and {files} files, killed after {', '.join(told)}: "
     sys.stdout.write(line + ("; ".join(found) or "no trace") + "\n")
     sys.stdout.flush()
     if not found:
         shutil.rmtree(repository.path)
+        noted.unlink()
     return found
 
 
