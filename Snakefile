@@ -15,7 +15,7 @@ sys.path.insert(0, str(Path(workflow.basedir) / "src"))
 
 from grasptypes.errors import InputError
 from grasptypes.params import read_yaml, validate_params
-from grasptypes.runs.interruption import take_up_publishing
+from grasptypes.runs.due import note_due, publish_what_is_due, publishing_is_due
 from grasptypes.versions.guard import release_dead_lock, remove_leftovers, use_this_checkout
 from grasptypes.versions.job_records import distrust_unrecorded
 
@@ -25,6 +25,7 @@ try:
         running_lock = release_dead_lock()
         if running_lock:
             remove_leftovers(".")
+            was_due = publishing_is_due(Path.cwd())
         distrust_unrecorded(PersistenceBase)
     # Before Snakemake reads them: it lets a duplicate key pass, and runs code if `__use_yte__` is set.
     SCHEMA = read_yaml(Path(workflow.basedir) / "workflow" / "schemas" / "params.schema.yaml")
@@ -76,14 +77,18 @@ localrules:
 
 
 # MLflow shows what the files hold: results never depend on its store being there.
+onstart:
+    note_due(Path.cwd())
+
+
 onsuccess:
     if any(Path("models").glob("*/*/predictor.json")):
         shell("python -m grasptypes.runs.publishing || true")
 
 
-# Without a job to do there is no `onsuccess`, yet a killed run may have left publishing half done.
-if workflow.is_main_process and running_lock:
-    atexit.register(lambda: workflow.dryrun or take_up_publishing(Path.cwd()))
+# Without a job to do there is no `onsuccess`, yet an earlier run may have been killed before it.
+if workflow.is_main_process and running_lock and was_due:
+    atexit.register(lambda: workflow.dryrun or publish_what_is_due(Path.cwd()))
 
 
 rule all:

@@ -24,7 +24,7 @@ from grasptypes.predictors.learning_inputs import read_backbone_record, recorded
 from grasptypes.predictors.metrics import METRICS
 from grasptypes.predictors.predictor_files import read_card
 from grasptypes.predictors.weights import Weights
-from grasptypes.runs.interruption import marked
+from grasptypes.runs.due import note_done
 from grasptypes.runs.run_records import Finished, file_digest, run_record, serving_requirements
 from grasptypes.runs.tracking import LoggedModel, Store, publish
 
@@ -132,8 +132,8 @@ def main() -> None:
         finished = finished_models(root)
         if not finished:
             raise InputError("models", "", "holds no finished predictor; run snakemake first")
-        with marked(root):
-            new = publish_runs(finished, root, version_tags(root), params)
+        new = publish_runs(finished, root, version_tags(root), params)
+        note_done(root)
     except InputError as error:
         sys.exit(f"error: {error}")
     logger.info("%s: %d models, %d new runs", params["tracking"]["database"], len(finished), new)
