@@ -86,13 +86,14 @@ ui: publish ## the MLflow UI on 127.0.0.1, few processes
 	MLFLOW_SERVER_ENABLE_JOB_EXECUTION=false mlflow ui --backend-store-uri sqlite:///$(CURDIR)/mlflow.db \
 	    --host 127.0.0.1 --port $(UI_PORT) --workers 1
 
-# What needs data from outside, and what the jobs cost, is shown where it is there.
+# What the main job does not make, for want of data or time, and what the jobs cost: shown if it is there.
+EXTRAS := reports/replay.csv reports/object_shapes.csv reports/figures/label_confusion.png \
+    reports/generalisation.csv reports/planning.csv
 report: setup ## the results with captions as one HTML page that opens offline: build/report.html
 	@mkdir -p build
 	python -m grasptypes.reports.timing
-	snakemake all $$(test -f build/timing.png && echo timing) $$(ls 2>/dev/null reports/replay.csv \
-	    reports/object_shapes.csv reports/figures/label_confusion.png) --report build/report.html \
-	    --report-stylesheet workflow/report/page.css
+	snakemake all $$(test -f build/timing.png && echo timing) $$(ls 2>/dev/null $(EXTRAS)) \
+	    --report build/report.html --report-stylesheet workflow/report/page.css
 
 clean: ## remove what can be rebuilt outside the data: logs, demo, caches
 	rm -rf build logs .pytest_cache .ruff_cache .mypy_cache

@@ -69,8 +69,18 @@ rule tabulate_generalisation:
         metrics=expand(rules.leave_out_shapes.output.metrics, labels=LABELS, model=MODELS),
         samples=[SAMPLES[labels] for labels in LABELS],
     output:
-        table="reports/generalisation.csv",
-        figure="reports/generalisation.png",
+        table=report(
+            "reports/generalisation.csv",
+            caption="../report/generalisation.rst",
+            category="Unseen objects",
+            labels={"subject": "more shapes", "labels": "both", "kind": "table"},
+        ),
+        figure=report(
+            "reports/generalisation.png",
+            caption="../report/generalisation.rst",
+            category="Unseen objects",
+            labels={"subject": "more shapes", "labels": "both", "kind": "figure"},
+        ),
     log:
         "logs/tabulate_generalisation.log",
     conda:

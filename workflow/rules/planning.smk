@@ -15,7 +15,12 @@ rule compare_plans:
         ),
         hand="assets/barrett_hand/barrett_hand.urdf",
     output:
-        table="reports/planning.csv",
+        table=report(
+            "reports/planning.csv",
+            caption="../report/planning.rst",
+            category="Grasps",
+            labels={"subject": "types chosen first", "kind": "table"},
+        ),
         markdown="reports/planning.md",
     log:
         "logs/compare_plans.log",
