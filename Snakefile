@@ -72,6 +72,7 @@ localrules:
     tabulate_unseen,
     tabulate_types,
     tabulate_objects,
+    tabulate_generalisation,
     plot_folds,
     plot_losses,
 

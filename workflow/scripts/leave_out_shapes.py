@@ -10,7 +10,7 @@ import torch
 from grasptypes.files import read_npz
 from grasptypes.jobs import job
 from grasptypes.labels.samples import read_samples
-from grasptypes.predictors.generalisation import TRIAL_SCHEMA, Inputs, Trial, try_trial
+from grasptypes.predictors.generalisation import TRIAL_SCHEMA, Inputs, Known, Trial, try_trial
 from grasptypes.predictors.learning_inputs import read_backbone_record, read_inputs
 from grasptypes.predictors.predictor_files import FROZEN
 from grasptypes.predictors.protocol import recipe_of
@@ -37,13 +37,16 @@ def leave_out_shapes(
 ) -> None:
     """Write the metrics of the model `name` (labels, model), one row a trial, object and seed."""
     record = read_backbone_record(inputs["backbone"])
-    objects = read_inputs(inputs["objects"], settings["tasks"])
-    variants, samples = read_variants(inputs["variants"]), read_samples(inputs["samples"])
+    known = Known(
+        read_inputs(inputs["objects"], settings["tasks"]),
+        read_variants(inputs["variants"]),
+        read_samples(inputs["samples"]),
+        list(settings["tasks"]),
+    )
     recipe = recipe_of(settings["predictors"] | {"finetune": FROZEN})
-    tasks, tables = list(settings["tasks"]), []
+    tables = []
     for trial in (Trial(**entry) for entry in settings["trials"]):
-        known = (objects, variants, samples, name[1], tasks, trial)
-        metrics = try_trial(*known, recipe, settings["seeds"], seed)
+        metrics = try_trial(known, name[1], trial, recipe, settings["seeds"], seed)
         table = with_source(metrics, name, record, FROZEN)
         tables.append(table.assign(shapes=trial.shapes, views=trial.views))
     write_table(pd.concat(tables, ignore_index=True), target, TRIAL_SCHEMA)

@@ -68,59 +68,56 @@ GENERALISATION_SCHEMA = pa.DataFrameSchema(
 )
 
 
+@dataclass(frozen=True)
+class Known:
+    """What trials choose from.
+
+    Attributes:
+        objects: object to encoding to (V, F) features.
+        variants: the same of variants, whose labels are those of their objects.
+        samples: of :mod:`grasptypes.labels.samples`, of the objects.
+        tasks: in the order of the task vector.
+    """
+
+    objects: Inputs
+    variants: Inputs
+    samples: pd.DataFrame
+    tasks: Sequence[str]
+
+
 def try_trial(
-    objects: Inputs,
-    variants: Inputs,
-    samples: pd.DataFrame,
-    model: str,
-    tasks: Sequence[str],
-    trial: Trial,
-    recipe: Recipe,
-    seeds: int,
-    seed: int,
+    known: Known, model: str, trial: Trial, recipe: Recipe, seeds: int, seed: int
 ) -> pd.DataFrame:
     """Leave out every object in turn, test on all its own pictures.
 
     Args:
-        objects: object to encoding to (V, F) features.
-        variants: the same of variants, whose labels are those of their objects.
-        samples: of :mod:`grasptypes.labels.samples`, of the objects.
         model: name of the model.
-        tasks: in the order of the task vector.
         seeds, seed: repetitions, and the workflow's number.
 
     Returns:
         one row an object and repetition, as :func:`grasptypes.reports.results.score` gives them.
     """
-    examples = trial_examples(objects, variants, samples, model, tasks, trial)
+    examples = trial_examples(known, model, trial)
     index = examples.index
     members = members_by_object(index["object"], seeds, index["view"].to_numpy() < trial.views)
     key = ("shapes", model, trial.shapes, trial.views, seed)
     return try_splits(examples, members, recipe, key).metrics
 
 
-def trial_examples(
-    objects: Inputs,
-    variants: Inputs,
-    samples: pd.DataFrame,
-    model: str,
-    tasks: Sequence[str],
-    trial: Trial,
-) -> Examples:
+def trial_examples(known: Known, model: str, trial: Trial) -> Examples:
     """All pictures of the objects and the first ones of their first variants."""
-    inputs = dict(objects)
-    for name in objects:
+    inputs = dict(known.objects)
+    for name in known.objects:
         for variant in variant_names(name, trial.shapes - 1):
-            inputs[variant] = {
-                encoding: views[: trial.views] for encoding, views in variants[variant].items()
-            }
+            shown = known.variants[variant]
+            inputs[variant] = {encoding: views[: trial.views] for encoding, views in shown.items()}
     # Nothing is split into folds here: objects are left out.
     folds = pd.concat(
         pd.DataFrame({"object": name, "view": np.arange(_views(shown)), "fold": 0})
         for name, shown in inputs.items()
     )
-    labelled = inherit(samples, list(inputs))
-    return assemble(VARIANTS[model], inputs, labelled, folds, list(tasks))
+    labelled = inherit(known.samples, list(inputs))
+    return assemble(VARIANTS[model], inputs, labelled, folds, list(known.tasks))
 
 
 def _views(shown: Mapping[str, np.ndarray]) -> int:

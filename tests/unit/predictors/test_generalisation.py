@@ -7,6 +7,7 @@ from learning import OBJECTS, RECIPE, TASKS, VIEWS, features, samples
 
 from grasptypes.predictors.generalisation import (
     GENERALISATION_SCHEMA,
+    Known,
     Trial,
     constant_similarity,
     describe,
@@ -24,6 +25,7 @@ VARIANTS = {
     for name, shown in features().items()
     for number in (1, 2)
 }
+KNOWN = Known(features(), VARIANTS, samples(), list(TASKS))
 
 
 def test_no_shape_of_the_object_is_trained_on_and_only_itself_is_tested():
@@ -41,7 +43,7 @@ def test_no_shape_of_the_object_is_trained_on_and_only_itself_is_tested():
 def test_variants_have_the_labels_of_their_object_and_the_views_of_the_trial():
     known = inherit(samples(), ["mug", "mug_v01"]).set_index(["object", "task"])
     assert known.loc[("mug_v01", "use")].equals(known.loc[("mug", "use")])
-    found = trial_examples(features(), VARIANTS, samples(), "task_vector", list(TASKS), Trial(3, 5))
+    found = trial_examples(KNOWN, "task_vector", Trial(3, 5))
     views = found.index.groupby("object")["view"].nunique()
     assert views["mug"] == VIEWS
     assert views["mug_v02"] == 5
@@ -52,8 +54,7 @@ def test_variants_have_the_labels_of_their_object_and_the_views_of_the_trial():
 def trials():
     tables = []
     for trial in (Trial(1, 10), Trial(2, 5)):
-        known = (features(), VARIANTS, samples(), "task_vector", list(TASKS), trial)
-        metrics = try_trial(*known, RECIPE, 2, seed=0)
+        metrics = try_trial(KNOWN, "task_vector", trial, RECIPE, 2, seed=0)
         source = {"labels": "simulated", "model": "task_vector", "backbone": "b", "weights": "w"}
         table = metrics.assign(**source, finetune="none")[list(METRIC_SCHEMA.columns)]
         tables.append(table.assign(shapes=trial.shapes, views=trial.views))
