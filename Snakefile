@@ -73,6 +73,7 @@ localrules:
     tabulate_types,
     tabulate_objects,
     tabulate_generalisation,
+    summarise_scores,
     plot_folds,
     plot_losses,
 
