@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from benchmarks.figures import Figure, figure, seconds
+from benchmarks.figures import Figure, NotReady, figure, seconds
 
 from grasptypes.versions.checkout import copy_checkout
 
@@ -27,5 +27,7 @@ def measure(settings: Mapping[str, Any], params: Mapping[str, Any]) -> Iterator[
 
 
 def _run(folder: Path, jobs: int, targets: list[str]) -> None:
-    command = ["snakemake", f"-j{jobs}", "--forceall", "--quiet", *targets]
-    subprocess.run(command, cwd=folder, check=True, capture_output=True)
+    command = ["snakemake", f"-j{jobs}", "--forceall", *targets, "--quiet", "all"]
+    result = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
+    if result.returncode:
+        raise NotReady(f"{' '.join(command)}: {result.stderr.strip().splitlines()[-1]}")
