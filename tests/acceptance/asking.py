@@ -33,7 +33,8 @@ def ask(folder: Path, environment: Mapping[str, str], tool: str, *arguments: str
 
 def modules_of(folder: Path, environment: Mapping[str, str], script: str) -> set[str]:
     """The modules of this project that Python itself imports to load a script, as paths."""
-    return set(ask(folder, environment, "imports", script).split())
+    lines = ask(folder, environment, "imports", script).splitlines()
+    return {line for line in lines if line.startswith("src/")}
 
 
 def _answer(

@@ -31,7 +31,7 @@ def pytest_report_teststatus(report: pytest.TestReport) -> tuple[str, str, str] 
     word = "PASS" if report.passed else "FAIL"
     case = f" [{told['case']}]" if told.get("case") else ""
     count = f"{told['count']}, " if "count" in told else ""
-    line = f"{word} {told.get('line')}{case} ({count}{report.duration:.0f} s)\n"
+    line = f"{word} {told.get('line', report.nodeid)}{case} ({count}{report.duration:.0f} s)\n"
     return report.outcome, line, word
 
 

@@ -52,6 +52,7 @@ READERS: dict[str, tuple[str, ...]] = {
 ELSEWHERE: dict[str, str] = {
     "objects.names": "adding and removing objects has a test of its own",
     "objects.own": "params.yaml names no own object",
+    "objects.variants": "params.yaml asks for none; they are objects like others",
 }
 
 NO_RESULT: dict[str, str] = {
@@ -60,6 +61,9 @@ NO_RESULT: dict[str, str] = {
     "contact_maps.measured": "is read for own objects with a measured map only",
     "contact_evidence": "concerns a rule that no target asks for: its finding is in the table",
     "published.timeout_s": "concerns a download that only some users need",
+    "objects.variation": "concerns variants, and reports/generalisation.csv, a target of its own",
+    "objects.variant_views": "concerns variants only",
+    "generalisation": "concerns reports/generalisation.csv, a target of its own",
     "predict": "concerns the command line, which makes no result",
     "tracking": "concerns MLflow's view of results",
 }
@@ -84,11 +88,14 @@ NO_RESULT_CODE: dict[str, str] = {
     "src/grasptypes/exchange": "importers and exporters for other people's files",
     "src/grasptypes/runs": "MLflow's view of results",
     "src/grasptypes/versions": "keeps results and tools in step",
+    "src/grasptypes/planning": "plans for the user's own meshes; what rules use of it is hashed",
+    "src/grasptypes/params.py": "refuses bad input; what it lets pass is a parameter of rules",
+    "src/grasptypes/reports/timing.py": "draws what jobs cost on this machine; no result",
+    "src/grasptypes/labels/label_sources.py": "decides which jobs there are; their inputs count",
+    "src/grasptypes/predictors/own_tasks.py": "refuses bad input, like start_up",
     "src/grasptypes/start_up.py": "refuses bad input; what it lets pass is a parameter of rules",
     "src/grasptypes/hand/__main__.py": "writes assets/barrett_hand, whose files are hashed",
     "src/grasptypes/hand/urdf.py": "writes assets/barrett_hand, whose files are hashed",
-    "src/grasptypes/hand/visuals.py": "writes assets/barrett_hand, whose files are hashed",
-    "src/grasptypes/predictors/prediction.py": "predicts for users; no table reads it",
     "src/grasptypes/predictors/prediction_pictures.py": "pictures of predictions for users",
     "src/grasptypes/renders/photos.py": "pictures of the user's own for the command line",
     "src/grasptypes/renders/mesh_views.py": "views of the user's own meshes for the command line",

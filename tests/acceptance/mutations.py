@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -28,16 +28,21 @@ class Mutation(NamedTuple):
     content: str
 
 
-def of_parameters(root: Path, special: Mapping[str, Any]) -> Iterator[Mutation]:
+def of_parameters(
+    root: Path, special: Mapping[str, Any], left_out: Collection[str]
+) -> Iterator[Mutation]:
     """Every leaf of params.yaml with another allowed value.
 
     Args:
         special: values for keys that cannot be guessed, by dotted key.
+        left_out: keys that are not to be changed.
     """
     params = yaml.safe_load((root / "params.yaml").read_text())
     schema = yaml.safe_load((root / "workflow/schemas/params.schema.yaml").read_text())
     for key in leaves(params):
         name = ".".join(map(str, key))
+        if name in left_out:
+            continue
         old = _get(params, key)
         tries = [special[name]] if name in special else _others(old)
         for value in tries:
