@@ -14,7 +14,7 @@ export PATH := $(BIN):$(PATH)
 export DVC_NO_ANALYTICS := 1
 export MLFLOW_DISABLE_TELEMETRY := true
 
-.PHONY: help setup table1 demo test acceptance bad-input test-faults verify coverage mutation bench lint format doctor \
+.PHONY: help setup table1 demo test test-slurm acceptance bad-input test-faults verify coverage mutation bench lint format doctor \
     publish ui report clean lock
 
 help: ## list the targets
@@ -48,6 +48,9 @@ test: setup ## the default tests
 
 acceptance: setup ## that Snakemake and DVC agree whatever happens, on 2 objects; about a quarter of an hour
 	pytest tests/acceptance -m slow
+
+test-slurm: setup ## the small configuration on a Slurm cluster of this machine (slurm-wlm and munge)
+	pytest tests/slurm
 
 bad-input: setup ## try every mistake a user can make and write docs/bad_input.md
 	python -W ignore tests/bad_input/table.py
