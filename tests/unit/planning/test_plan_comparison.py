@@ -1,0 +1,104 @@
+"""Counting what a plan costs, and the types that predictors choose for objects left out."""
+
+import numpy as np
+import pandas as pd
+import pytest
+from learning import OBJECTS, RECIPE, TASKS, examples
+
+from grasptypes.labels.grasp_type import GRASP_TYPES
+from grasptypes.planning import plan_comparison
+from grasptypes.planning.plan_comparison import (
+    ANY,
+    CHOICES,
+    LABELLED,
+    PLANNING_SCHEMA,
+    PREDICTED,
+    Case,
+    outcome,
+    summary,
+    text,
+)
+from grasptypes.planning.planner import Planned, Workshop
+from grasptypes.planning.unseen_types import unseen_types
+from grasptypes.predictors.problem import Problem
+
+TYPES = {PREDICTED: ["Precision"], LABELLED: ["Small Wrap", "Large Wrap"]}
+
+
+@pytest.fixture
+def planned(monkeypatch):
+    """A plan that costs nothing: five tries of three sessions, two of them valid."""
+    attempts = pd.DataFrame({"moved_m": [0.0, 0.001, 0.2, 0.0, 0.002]})
+    grasps = pd.DataFrame(
+        {
+            "grasp_type": ["Small Wrap", "Invalid", "Large Wrap"],
+            "valid": [True, False, True],
+            "energy": [0.5, 0.1, 0.3],
+        }
+    )
+    asked = {}
+    contacts = plan_comparison.__name__ + ".plan_contacts"
+    monkeypatch.setattr(contacts, lambda folder, scan, grips, *rest: asked.update(grips=grips))
+    found = lambda *rest, **more: Planned(attempts, grasps)  # noqa: E731
+    monkeypatch.setattr(plan_comparison.__name__ + ".plan", found)
+    return asked
+
+
+@pytest.mark.parametrize(
+    ("choice", "grips"),
+    [
+        (PREDICTED, ("pinch",)),
+        (LABELLED, ("wrap",)),
+        (ANY, ("wrap", "enclose", "tripod", "pinch")),
+    ],
+)
+def test_tests_and_valid_grasps_are_counted_for_each_choice(planned, tmp_path, choice, grips):
+    shop = Workshop(tmp_path, tmp_path, ("mug", "use"), 0, {})
+    row = outcome(Case(shop, choice, TYPES, {}))
+    assert planned["grips"] == grips
+    assert (row["sessions"], row["tests"], row["valid"]) == (3, 3, 2)
+    assert (row["valid_predicted"], row["valid_labelled"]) == (0, 2)
+    assert (row["energy"], row["energy_labelled"]) == (0.3, 0.3)
+    assert np.isnan(row["energy_predicted"])
+    PLANNING_SCHEMA.validate(pd.DataFrame([row]))
+
+
+def table():
+    rows = []
+    for number, name in enumerate(("apple", "mug")):
+        for place, choice in enumerate(CHOICES):
+            # Of the labels' types, one choice has no grasp of the mug.
+            labelled = np.nan if (name, choice) == ("mug", ANY) else 0.5 - 0.1 * place
+            energies = {"": 0.1 * (place + number), "_predicted": 0.7, "_labelled": labelled}
+            row = {"object": name, "task": "use", "choice": choice, "types": "Precision"}
+            row |= {"sessions": 3, "tests": 12}
+            for kind, energy in energies.items():
+                row |= {f"valid{kind}": 2 + place, f"energy{kind}": energy}
+            rows.append(row)
+    return PLANNING_SCHEMA.validate(pd.DataFrame(rows))
+
+
+def test_energies_are_compared_where_all_choices_have_a_grasp():
+    totals = summary(table())
+    assert totals.tests.tolist() == [24, 24, 24]
+    assert totals.tests_per_valid.tolist() == [6, 4, 3]
+    np.testing.assert_allclose(totals.energy, [0.05, 0.15, 0.25])
+    np.testing.assert_allclose(totals.energy_labelled, [0.5, 0.4, 0.3])  # of the apple alone
+
+
+def test_the_summary_is_a_table_of_markdown():
+    lines = text(table()).splitlines()
+    assert len({line.count("|") for line in lines}) == 1
+    assert lines[-1].startswith("| all types | 24 | 8: 3.00 |")
+
+
+def test_every_object_left_out_gets_types_for_every_task():
+    problem = Problem(
+        "simulated", "task_vector", TASKS, examples("task_vector"), RECIPE, None, None
+    )
+    found = unseen_types(problem, seeds=1, seed=0)
+    assert found.keys() == {(name, task) for name in OBJECTS for task in TASKS}
+    for types in found.values():
+        assert types
+        assert set(types) <= set(GRASP_TYPES[:-1])
+    assert unseen_types(problem, seeds=1, seed=0) == found
