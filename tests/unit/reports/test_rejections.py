@@ -2,7 +2,8 @@
 
 import pandas as pd
 
-from grasptypes.reports.rejections import caption, examples, heading
+from grasptypes.reports.rejections import IN_WORDS, caption, examples, heading
+from grasptypes.synthesis.grasps import REASONS
 
 
 def attempts() -> pd.DataFrame:
@@ -34,3 +35,7 @@ def test_reasons_are_told_with_what_was_measured() -> None:
         "mug, use: moved 51 mm, 29°",
         "mug, use: 3.1 mm deep",
     ]
+
+
+def test_every_reason_has_its_words() -> None:
+    assert set(IN_WORDS) == set(REASONS)
