@@ -31,7 +31,7 @@ def measure(settings: Mapping[str, Any], params: Mapping[str, Any]) -> Iterator[
     yield rates(f"features in {how['precision']}", "pictures/s", taken_s, len(pictures))
 
 
-def _network(weights: Weights) -> torch.nn.Module:
+def _network(weights: Weights) -> torchvision.models.MobileNetV2:
     """torchvision's MobileNetV2 as it comes; with its random start if other weights are in use."""
     network = torchvision.models.mobilenet_v2()
     if weights.backbone == "mobilenet_v2":
@@ -40,7 +40,9 @@ def _network(weights: Weights) -> torch.nn.Module:
 
 
 @torch.inference_mode()
-def _plain(network: torch.nn.Module, pictures: np.ndarray, input_px: int, batch: int) -> None:
+def _plain(
+    network: torchvision.models.MobileNetV2, pictures: np.ndarray, input_px: int, batch: int
+) -> None:
     functional = torchvision.transforms.functional
     for chunk in torch.from_numpy(pictures).permute(0, 3, 1, 2).split(batch):
         x = functional.resize(chunk.to(torch.float32) / 255, [input_px, input_px])

@@ -21,8 +21,8 @@ from grasptypes.seeds import rng
 from grasptypes.synthesis.candidates import Hands, Person, draw_candidates
 from grasptypes.synthesis.energy import closeness, draw_targets, energies
 from grasptypes.synthesis.fields import distances, field
-from grasptypes.synthesis.holding import PhysicsSettings
-from grasptypes.synthesis.physics import Physics, physics, read_body
+from grasptypes.synthesis.holding import PhysicsSettings, read_body
+from grasptypes.synthesis.physics import Physics, physics
 from grasptypes.synthesis.search import SearchSettings, Thing, search_session
 from grasptypes.synthesis.settings import sampled_hand, search_settings
 from grasptypes.synthesis.trials import Hand, Problem, ValiditySettings, people, synthesize
