@@ -94,6 +94,7 @@ def test_softmax_of_many_samples_is_that_of_each():
 
 def test_softmax_survives_large_logits():
     np.testing.assert_allclose(softmax([1000.0, 1000.0, 0.0]), [0.5, 0.5, 0.0])
+    np.testing.assert_allclose(softmax([[1000.0, 0.0], [0.0, 0.0]]), [[1.0, 0.0], [0.5, 0.5]])
 
 
 def test_evaluation_averages_over_samples():
