@@ -56,6 +56,7 @@ bad-input: setup ## try every mistake a user can make and write docs/bad_input.m
 	python -W ignore tests/bad_input/table.py
 
 test-faults: setup ## kill KILLS runs at random moments, then full disks, missing libraries and the like
+	rm -rf build/faults
 	python tests/workflow/kill_runs.py build/faults --runs $(KILLS)
 	pytest -m slow tests/workflow/test_faults.py
 

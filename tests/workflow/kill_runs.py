@@ -120,6 +120,9 @@ def disturb(folder: Path, seed: int, number: int, kills: int) -> list[str]:
     moments_s = [draw.uniform(0, whole_s / kills) for _ in range(kills)]
     repository, noted = Repository(folder / f"run_{number}"), folder / f"run_{number}.json"
     told = json.loads(noted.read_text()) if noted.exists() else []
+    if isinstance(told, str):
+        sys.stdout.write(told)
+        return []
     while len(told) < kills:
         if not repository.path.exists():
             Repository(folder / "fresh").copy(repository.path)
@@ -133,11 +136,12 @@ def disturb(folder: Path, seed: int, number: int, kills: int) -> list[str]:
     found = faults(repository, expected)
     files = len(checksums(expected.path))
     line = f"run {number} of {whole_s:.0f} s and {files} files, killed after {', '.join(told)}: "
-    sys.stdout.write(line + ("; ".join(found) or "no trace") + "\n")
+    line += ("; ".join(found) or "no trace") + "\n"
+    sys.stdout.write(line)
     sys.stdout.flush()
     if not found:
         shutil.rmtree(repository.path)
-        noted.unlink()
+        noted.write_text(json.dumps(line))
     return found
 
 
