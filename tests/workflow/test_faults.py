@@ -140,8 +140,12 @@ def test_two_runs_at_once(changed: Repository, complete: Repository) -> None:
 
 
 def test_memory_too_short_for_one_job(changed: Repository, complete: Repository) -> None:
+    spacing_m = 0.002
+    assert "grid_spacing_m: 0.002" in (changed.path / "params.yaml").read_text()
+    changed.set_param("objects.resolution.grid_spacing_m", spacing_m / 4)
     lose(changed, OBJECT)
-    limited = ("prlimit", f"--as={2**30}", *RUN)
-    output = changed.run(*limited, check=False)
-    assert "memory" in output.lower()
+    output = changed.run("prlimit", f"--as={2**30}", *RUN, check=False)
+    assert "error: the memory is too short for this job" in output
+    assert "Traceback" not in output
+    changed.set_param("objects.resolution.grid_spacing_m", spacing_m)
     assert is_whole(changed, complete)
