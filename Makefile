@@ -68,7 +68,7 @@ coverage: setup ## line coverage of src/ by the default tests, what Snakemake's 
 	pytest -n $(JOBS) --cov --cov-report term
 
 mutation: setup ## which changes of labelling, folds and metrics the tests do not notice
-	mutmut run && mutmut results
+	mutmut run && mutmut results && mutmut export-cicd-stats && cat mutants/mutmut-cicd-stats.json
 
 bench: setup ## each figure of speed beside its reference; most parts need results to be there
 	python -m benchmarks
@@ -100,7 +100,7 @@ report: setup ## the results with captions as one HTML page that opens offline: 
 	    --report build/report.html --report-stylesheet workflow/report/page.css
 
 clean: ## remove what can be rebuilt outside the data: logs, demo, caches
-	rm -rf build logs .pytest_cache .ruff_cache .mypy_cache
+	rm -rf build logs mutants .coverage* .pytest_cache .ruff_cache .mypy_cache
 
 lock: setup ## write requirements.lock anew from the ranges of pyproject.toml
 	pip-compile --quiet --all-extras --strip-extras --no-header --annotation-style line \

@@ -31,7 +31,8 @@ def measure(settings: Mapping[str, Any], params: Mapping[str, Any]) -> Iterator[
     members = members_by_group(problem.examples.index["fold"], params["predictors"]["seeds"])
     train = partial(fit, problem.examples, schedule=problem.recipe.schedule, key=("benchmark",))
     works = partial(train, members), partial(train, members[:1])
-    together_s, alone_s = seconds(*works, rounds=settings["rounds"], clock=time.process_time).T
+    clock, rounds = time.process_time, settings["rounds"]
+    together_s, alone_s = seconds(*works, rounds=rounds, warm_up=False, clock=clock).T
     in_turn_s = len(members) * alone_s
     yield Figure(
         f"training of {settings['model']}, {len(members)} heads",
