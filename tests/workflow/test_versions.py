@@ -1,5 +1,6 @@
 """Snakemake and DVC agree on what is stale, whoever is asked and wherever the files come from."""
 
+import re
 import shutil
 from pathlib import Path
 
@@ -94,3 +95,19 @@ def test_a_hand_edited_result_is_found_with_its_cure(changed: Repository) -> Non
     assert f"dvc checkout --force {edited}" in found
     changed.dvc("checkout", "--force", edited)
     assert "nothing is wrong" in changed.run(*doctor, PYTHONPATH=source)
+
+
+def test_dvc_shows_scores_stages_and_pictures_offline(changed: Repository) -> None:
+    scores = changed.dvc("metrics", "show")
+    assert "reports/scores/simulated/task_vector.json" in scores
+    assert "unseen.similarity" in scores
+    assert "predictors" in changed.dvc("dag")
+    changed.set_param("renders.fill", 0.8)
+    assert "renders.fill" in changed.dvc("params", "diff")
+    changed.dvc("plots", "show")
+    page = changed.path / "build/dvc_plots/index.html"
+    text = page.read_text()
+    assert "http" not in text, "the page asks the network for something"
+    pictures = re.findall(r'<img src="([^"]+)"', text)
+    assert len(pictures) > 5
+    assert all((page.parent / picture).is_file() for picture in pictures)
