@@ -10,6 +10,7 @@ import map_cases
 import mesh_cases
 import params_cases
 import picture_cases
+import plan_cases
 import table_cases
 import weights_cases
 from case import ROOT, Case, try_in
@@ -22,6 +23,7 @@ MODULES = (
     weights_cases,
     picture_cases,
     command_cases,
+    plan_cases,
 )
 CASES: list[Case] = [case for module in MODULES for case in module.CASES]
 TABLE = ROOT / "docs/bad_input.md"

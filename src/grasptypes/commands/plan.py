@@ -166,9 +166,9 @@ def _check_output(folder: Path) -> None:
     """Refuse a folder with something in it, and a place where none can be made."""
     if folder.exists() and (not folder.is_dir() or any(folder.iterdir())):
         raise InputError(folder, "", "is there already and not empty; name another with --output")
-    above = next(parent for parent in folder.absolute().parents if parent.exists())
+    above = next(parent for parent in folder.parents if parent.exists())
     if not above.is_dir() or not os.access(above, os.W_OK):
-        raise InputError(folder, "", f"cannot be made in {above}")
+        raise InputError(folder, "", f"cannot be made: {above} is no folder to write to")
 
 
 def _move(written: Path, output: Path) -> None:

@@ -27,10 +27,7 @@ SMALL = {
     "gallery": {"size_px": 64, "tile_px": 64},
     "synthesis": {"candidates": {"number": 150}, "refinement": {"rounds": 1}},
     "contact_maps": {"points": 1500},
-    "objects": {
-        "resolution": {"surface_edge_m": 0.006, "grid_spacing_m": 0.004},
-        "import": {"rebuild_cells": 24},
-    },
+    "objects": {"resolution": {"surface_edge_m": 0.006, "grid_spacing_m": 0.004}},
     "plan": {"sessions": SESSIONS, "shown": 2},
 }
 
@@ -193,58 +190,6 @@ def test_a_session_gives_its_grasp_of_a_wanted_type():
     for types, expected in (["Small Wrap"], [2, 4, 7]), (["Power Sphere"], [3, 4, 7]):
         chosen = choose(attempts, types).chosen
         assert np.flatnonzero(chosen).tolist() == expected
-
-
-def _open_shell(folder):
-    half = trimesh.creation.icosphere(subdivisions=3, radius=0.05)
-    half.update_faces(half.triangles_center[:, 2] > 0)
-    half.export(folder / "shell.stl")
-    return folder / "shell.stl"
-
-
-def _colourless(folder):
-    trimesh.creation.box((0.05, 0.05, 0.05)).export(folder / "plain.ply")
-    return folder / "plain.ply"
-
-
-@pytest.mark.parametrize(
-    ("change", "expected"),
-    [
-        ({"--task": "fly"}, "error: --task: fly: unknown; allowed: use, handoff"),
-        ({"--type": "Hug"}, "error: --type: Hug: unknown; allowed: Large Wrap, "),
-        ({"--type": "Invalid"}, "error: --type: Invalid: unknown"),
-        ({"--object": "gone.stl"}, "gone.stl: no such file"),
-        ({"--object": "notes.txt"}, "not a mesh format"),
-        ({"--object": _open_shell}, "is an open shell without volume"),
-        ({"--unit": "m"}, "unit: the object would be 160 m long"),
-        ({"--contact-map": "gone.ply"}, "gone.ply: no such file"),
-        ({"--contact-map": "notes.txt"}, "is no contact map"),
-        ({"--contact-map": _colourless}, "has no colour a vertex"),
-        ({"--output": "full"}, "full: is there already and not empty"),
-        ({"--output": "notes.txt/grasps"}, "cannot be made in"),
-        ({"--folder": "full"}, "params.yaml: no such file; name a checkout"),
-    ],
-)
-def test_bad_input_is_one_line_and_nothing_is_written(
-    checkout, mesh, tmp_path, monkeypatch, capsys, change, expected
-):
-    monkeypatch.chdir(tmp_path)
-    (tmp_path / "notes.txt").write_text("no mesh")
-    (tmp_path / "full").mkdir()
-    (tmp_path / "full/old.csv").touch()
-    change = {k: str(v(tmp_path)) if callable(v) else v for k, v in change.items()}
-    if change.get("--object", "").endswith("shell.stl"):
-        change["--unit"] = "m"
-    asked = {"--folder": checkout, "--object": mesh, "--unit": "mm", "--task": "use"}
-    asked |= {"--type": "Precision", "--output": "grasps"} | change
-    before = sorted(tmp_path.rglob("*"))
-    with pytest.raises(SystemExit) as end:
-        main(["plan", *(str(word) for pair in asked.items() for word in pair)])
-    assert isinstance(end.value.code, str)  # status 1
-    assert expected in end.value.code
-    assert "\n" not in end.value.code
-    assert "Traceback" not in capsys.readouterr().err
-    assert sorted(tmp_path.rglob("*")) == before
 
 
 def test_a_predictor_that_is_missing_is_named(mesh, tmp_path, monkeypatch):

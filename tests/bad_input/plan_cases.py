@@ -1,0 +1,38 @@
+"""Mistakes in what is asked of `grasptypes plan`."""
+
+from __future__ import annotations
+
+from case import Case, Content
+from command_cases import FOLDER
+from map_cases import ply, spread
+from mesh_cases import STL, TEXT_PLY
+from picture_cases import command
+
+
+def planned(what: str, changes: dict[str, str], *names: str, **more: Content) -> Case:
+    """A call with a good mesh, and other files by their names without the dot."""
+    files = FOLDER | {"cup.stl": STL, "note.txt": "no mesh", "full/old.csv": ""}
+    files |= {name.replace("_", "."): content for name, content in more.items()}
+    asked = {"--object": "cup.stl", "--task": "use", "--type": "Precision", "--output": "out"}
+    words = [word for pair in (asked | changes).items() for word in pair]
+    return Case("plan", what, files, command("plan", *words), names)
+
+
+CASES = [
+    planned("an unknown task", {"--task": "fly"}, "--task: fly", "use, handoff"),
+    planned("an unknown type", {"--type": "Hug"}, "--type: Hug", "Large Wrap, Medium Wrap"),
+    planned("Invalid for a type", {"--type": "Invalid"}, "--type: Invalid", "Precision"),
+    planned("no session", {"--sessions": "0"}, "--sessions", "whole number from 1 up"),
+    planned("a mass of nothing", {"--mass-kg": "0"}, "--mass-kg", "not above 0"),
+    planned("a mesh that is not there", {"--object": "no.stl"}, "no.stl: no such file"),
+    planned("a file that is no mesh", {"--object": "note.txt"}, "note.txt", ".stl, .obj"),
+    planned("a wrong unit", {"--unit": "mm"}, "cup.stl: unit", "unit: m"),
+    planned("a map that is not there", {"--contact-map": "no.ply"}, "no.ply: no such file"),
+    planned("a map that is no PLY", {"--contact-map": "note.txt"}, "note.txt: is no contact map"),
+    planned("a map without colours", {"--contact-map": "grey.ply"}, "grey.ply: has no colour",
+            grey_ply=TEXT_PLY),
+    planned("a map that lies elsewhere", {"--contact-map": "far.ply"}, "far.ply: shows 0%",
+            far_ply=ply(spread(20, 200), scale=9.0)),
+    planned("a folder that is not empty", {"--output": "full"}, "full: is there already"),
+    planned("a file for a folder", {"--output": "note.txt/out"}, "note.txt/out: cannot be made: note.txt"),
+]  # fmt: skip
