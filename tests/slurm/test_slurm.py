@@ -16,7 +16,7 @@ from repository import TARGET, Repository
 
 # The profile with less patience: this cluster answers at once.
 CALL = [sys.executable, "-m", "snakemake", "--profile", "profiles/slurm", "--latency-wait", "5"]
-CALL += ["--slurm-init-seconds-before-status-checks", "3", TARGET]
+CALL += ["--slurm-init-seconds-before-status-checks", "3", "--no-hooks", TARGET]
 
 
 @pytest.fixture
@@ -78,6 +78,6 @@ def test_the_table_is_the_same_whatever_is_killed(cluster: Cluster, tmp_path: Pa
     assert len(object_jobs(cluster, "CANCELLED")) == 2
     assert len(object_jobs(cluster, "COMPLETED")) == 1
     local = Repository.create(tmp_path / "local")
-    local.snakemake()
+    local.snakemake("--no-hooks", TARGET)
     assert (remote.path / TARGET).read_bytes() == (local.path / TARGET).read_bytes()
     assert remote.snakemake_is_clean()
