@@ -57,13 +57,13 @@ ELSEWHERE: dict[str, str] = {
 
 NO_RESULT: dict[str, str] = {
     "objects.import": "is read for own objects only",
-    "contact_maps.affinities": "is a path; the rows of the table that it names count",
     "contact_maps.measured": "is read for own objects with a measured map only",
     "contact_evidence": "concerns a rule that no target asks for: its finding is in the table",
     "published.timeout_s": "concerns a download that only some users need",
     "objects.variation": "concerns variants, and reports/generalisation.csv, a target of its own",
     "objects.variant_views": "concerns variants only",
     "generalisation": "concerns reports/generalisation.csv, a target of its own",
+    "plan": "concerns the command line, and reports/planning.csv, a target of its own",
     "predict": "concerns the command line, which makes no result",
     "tracking": "concerns MLflow's view of results",
 }

@@ -7,7 +7,7 @@ import os
 import queue
 import re
 from collections import Counter
-from collections.abc import Collection, Iterable
+from collections.abc import Collection
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import NamedTuple
@@ -42,19 +42,19 @@ class Answers(NamedTuple):
 
 
 class Workflow(NamedTuple):
-    """Jobs by rule when everything is to be made, and the rules that read each rule's results."""
+    """The rule of every job by the job's number, and the jobs that read each job's results."""
 
-    totals: Counter[str]
+    rules: dict[str, str]
     readers: dict[str, set[str]]
 
-    def affected(self, rules: Iterable[str]) -> Counter[str]:
+    def affected(self, rules: Collection[str]) -> Counter[str]:
         """The jobs of the rules, and of all that read their results, directly or not."""
-        todo, seen = set(rules) & set(self.totals), set()
+        todo, seen = {job for job, rule in self.rules.items() if rule in rules}, set()
         while todo:
-            rule = todo.pop()
-            seen.add(rule)
-            todo |= self.readers.get(rule, set()) - seen
-        return Counter({rule: self.totals[rule] for rule in seen})
+            job = todo.pop()
+            seen.add(job)
+            todo |= self.readers.get(job, set()) - seen
+        return Counter(self.rules[job] for job in seen)
 
 
 def both(repository: Repository) -> Answers:
@@ -68,13 +68,11 @@ def both(repository: Repository) -> Answers:
 
 @pytest.fixture(scope="module")
 def workflow(complete: Repository) -> Workflow:
-    totals = complete.planned(*TARGETS, "--forceall")
-    graph = complete.run("snakemake", *TARGETS, "--rulegraph")
-    names = dict(re.findall(r'(\d+)\[label = "(\w+)"', graph))
+    graph = complete.run("snakemake", *TARGETS, "--dag")
     readers: dict[str, set[str]] = {}
     for above, below in re.findall(r"(\d+) -> (\d+)", graph):
-        readers.setdefault(names[above], set()).add(names[below])
-    return Workflow(totals, readers)
+        readers.setdefault(above, set()).add(below)
+    return Workflow(dict(re.findall(r'(\d+)\[label = "(\w+)', graph)), readers)
 
 
 @pytest.fixture(scope="module")
@@ -165,7 +163,7 @@ def test_modules(
     found = []
     mutations = list(of_code(complete.path, "src/grasptypes"))
     for name, answers in sweep(copies, mutations).items():
-        rules = users.get(name, set()) & set(workflow.totals)
+        rules = users.get(name, set()) & set(workflow.rules.values())
         reason = longest(name, NO_RESULT_CODE) or name.endswith("__init__.py")
         if name not in users and not reason:
             found.append(f"{name}: no rule uses it, and no reason is given")
@@ -201,7 +199,7 @@ def test_scripts(
     mutations = list(of_code(complete.path, "workflow/scripts"))
     found = []
     for name, answers in sweep(copies, mutations).items():
-        rules = set(rules_of(Path(name))) & set(workflow.totals)
+        rules = set(rules_of(Path(name))) & set(workflow.rules.values())
         found += complaints(name, answers, workflow, rules)
         if not answers.stages:
             found.append(f"{name}: dvc does not notice")
