@@ -35,13 +35,25 @@ def pytest_report_teststatus(report: pytest.TestReport) -> tuple[str, str, str] 
     return report.outcome, line, word
 
 
+def start(path: Path) -> Repository:
+    """The small configuration with nothing computed, but for the tables that git holds."""
+    repository = Repository.create(path)
+    for name in KEPT:
+        (path / name).parent.mkdir(parents=True, exist_ok=True)
+        (path / name).write_text("kept\n")
+    return repository
+
+
+@pytest.fixture
+def fresh(tmp_path: Path) -> Repository:
+    """A repository in which nothing is computed."""
+    return start(tmp_path / "fresh")
+
+
 @pytest.fixture(scope="session")
 def by_snakemake(tmp_path_factory: pytest.TempPathFactory) -> tuple[Repository, str]:
     """A repository that Snakemake computed and DVC then recorded, and what DVC printed."""
-    repository = Repository.create(tmp_path_factory.mktemp("by_snakemake") / "repository")
-    for name in KEPT:
-        (repository.path / name).parent.mkdir(parents=True, exist_ok=True)
-        (repository.path / name).write_text("kept\n")
+    repository = start(tmp_path_factory.mktemp("by_snakemake") / "repository")
     repository.snakemake(*KEEPERS)
     repository.snakemake("all")
     output = repository.dvc("repro")

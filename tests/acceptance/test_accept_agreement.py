@@ -33,15 +33,14 @@ def test_a_snakemake_first(by_snakemake: tuple[Repository, str]) -> None:
     assert repository.is_clean()
 
 
-def test_b_dvc_first(complete: Repository, tmp_path: Path, request: pytest.FixtureRequest) -> None:
+def test_b_dvc_first(complete: Repository, fresh: Repository) -> None:
     """(b) dvc repro from nothing: both have nothing to do, and the results are the same bytes"""
-    repository = Repository.create(tmp_path / "repository")
-    everything = repository.planned("all")
-    made = jobs(repository.dvc("repro"))
+    everything = fresh.planned("all")
+    made = jobs(fresh.dvc("repro"))
     del everything["all"]
     assert {rule: made[rule] for rule in everything} == everything
-    assert repository.is_clean()
-    assert results(repository) == results(complete)
+    assert fresh.is_clean()
+    assert results(fresh) == results(complete)
 
 
 def results(repository: Repository) -> dict[str, str]:
