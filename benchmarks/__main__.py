@@ -19,15 +19,16 @@ from grasptypes.tables import write_table
 
 TABLE = Path("reports/benchmarks.csv")
 SETTINGS = Path(__file__).with_name("settings.yaml")
-# Each part is a module here; what it needs beside a checkout, and what makes that.
+# Each part is a module here; what it needs beside a checkout, and what makes that. Renders come last:
+# torch's compiler must not be loaded after OpenGL (see grasptypes.renders.renderer).
 PARTS = {
     "records": ("logs/benchmarks", "snakemake"),
     "idle": (".snakemake/metadata", "dvc repro"),
     "parallel": ("params.yaml", ""),
     "synthesis": ("data/contact_maps", "snakemake contact_maps"),
-    "renders": ("data/objects", "snakemake objects"),
     "features": ("data/renders", "snakemake renders"),
     "training": ("data/features", "snakemake features data/samples.csv data/folds.csv"),
+    "renders": ("data/objects", "snakemake objects"),
 }
 
 
@@ -54,11 +55,12 @@ def main() -> None:
     """Command line."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("parts", nargs="*", metavar="PART", help=", ".join(PARTS))
-    parts = parser.parse_args().parts
+    asked = parser.parse_args().parts
+    parts = [part for part in PARTS if part in asked or not asked]
     sys.stdout.write(header() + "\n")
     settings, params = read_yaml(SETTINGS), read_yaml("params.yaml")
-    found = table(measured(parts or list(PARTS), settings, params))
-    if not parts:
+    found = table(measured(parts, settings, params))
+    if not asked:
         write_table(found, TABLE, FIGURE_SCHEMA)
 
 
