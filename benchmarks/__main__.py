@@ -19,8 +19,8 @@ from grasptypes.tables import write_table
 
 TABLE = Path("reports/benchmarks.csv")
 SETTINGS = Path(__file__).with_name("settings.yaml")
-# Each part is a module here; what it needs beside a checkout, and what makes that. Renders come last:
-# torch's compiler must not be loaded after OpenGL (see grasptypes.renders.renderer).
+# Each part is a module here; what it needs beside a checkout, and what makes that. Renders come
+# last: torch's compiler must not be loaded after OpenGL (see grasptypes.renders.renderer).
 PARTS = {
     "records": ("logs/benchmarks", "snakemake"),
     "idle": (".snakemake/metadata", "dvc repro"),
@@ -56,6 +56,8 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("parts", nargs="*", metavar="PART", help=", ".join(PARTS))
     asked = parser.parse_args().parts
+    if unknown := set(asked) - set(PARTS):
+        parser.error(f"no such part: {', '.join(sorted(unknown))}")
     parts = [part for part in PARTS if part in asked or not asked]
     sys.stdout.write(header() + "\n")
     settings, params = read_yaml(SETTINGS), read_yaml("params.yaml")
