@@ -221,10 +221,6 @@ def test_measures_are_those_of_each_grasp():
     )
 
 
-def test_diameters_are_computed_in_double_precision():
-    assert enclosed_diameters(np.zeros((1, 8), dtype=np.float32)).dtype == np.float64
-
-
 def test_nothing_is_enclosed_by_fingers_that_cross_the_palm():
     closed = kinematics.couple(np.radians([[0, 140, 140, 140]]))
     assert (enclosed_diameters(closed) >= 0).all()
