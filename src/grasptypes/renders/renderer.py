@@ -121,9 +121,10 @@ class Camera:
             studio.field_of_view_rad, znear=diagonal_m / 50, zfar=diagonal_m * 50, aspectRatio=1.0
         )
         camera = scene.add(lens)
-        for light in studio.lights:
+        for number, light in enumerate(studio.lights):
             lamp = pyrender.DirectionalLight(intensity=light["intensity_lux"])
-            scene.add(lamp, pose=_looking_along(np.array(light["direction"])), parent_node=camera)
+            pose = _looking_along(np.array(light["direction"]))
+            scene.add_node(_numbered_node(pyrender, number, lamp, pose), parent_node=camera)
         return scene, camera, materials
 
     def shoot(self, scene: pyrender.Scene) -> np.ndarray:
@@ -224,6 +225,20 @@ def _background(studio: Studio) -> np.ndarray:
     falloff = (axis[:, None] ** 2 + axis[None, :] ** 2) / 2
     shade = 1 - np.float32(studio.vignette) * falloff
     return shade[..., None] * np.asarray(studio.background_rgb, dtype=np.float32)
+
+
+def _numbered_node(pyrender: Any, number: int, light: Any, pose: np.ndarray) -> Any:
+    """A node with a light that keeps its place among others.
+
+    pyrender keeps lights in sets, whose order goes by where in memory they lie; in another order
+    their sum is rounded otherwise, and now and then a pixel comes out one level brighter.
+    """
+
+    class NumberedNode(pyrender.Node):
+        def __hash__(self) -> int:
+            return number
+
+    return NumberedNode(light=light, matrix=pose)
 
 
 def _material(pyrender: Any, part: Part) -> Any:

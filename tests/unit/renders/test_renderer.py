@@ -71,6 +71,15 @@ def test_the_same_bytes_again_and_other_views_for_another_seed():
     assert not np.allclose(other, poses)
 
 
+def test_lights_shine_in_the_order_they_are_stated_in():
+    stated = [float(number) for number in range(1, 7)]
+    lights = [{"intensity_lux": lux, "direction": [0.5, -0.9, -0.7]} for lux in stated]
+    with Camera(Studio(**SETTINGS | {"lights": lights})) as camera:
+        for _ in range(5):
+            scene, _, _ = camera.scene([ball((0.8, 0.05, 0.05))])
+            assert [node.light.intensity for node in scene.light_nodes] == stated
+
+
 def test_randomised_colours_differ_from_view_to_view():
     colours = [p[32, 32] for p in pictures(SETTINGS | {"colour_randomisation": 1.0}, count=4)]
     assert np.ptp(np.array(colours, dtype=int), axis=0).max() > 30
