@@ -127,7 +127,8 @@ def served_runs(repository: Repository) -> Iterator[str]:
     )
     try:
         assert process.stdout is not None
-        link = process.stdout.readline().split()[-1]
+        # Below another make, the first line says which folder this one entered.
+        link = next(line for line in process.stdout if line.startswith("runs:")).split()[-1]
         threading.Thread(target=process.stdout.read, daemon=True).start()
         _wait_for_server(f"http://127.0.0.1:{port}/health")
         yield link
