@@ -1,7 +1,11 @@
-"""Finished pictures a second beside a bare pyrender loop over the same scenes."""
+"""Finished pictures a second beside a bare pyrender loop over the same scenes.
+
+Both with the one thread that a job has: a renderer that takes all cores is not a job's rate.
+"""
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterator, Mapping
 from dataclasses import fields
 from functools import partial
@@ -13,10 +17,12 @@ from benchmarks.figures import Figure, rates, seconds
 
 from grasptypes.renders.renderer import Camera, Studio, Views
 from grasptypes.renders.scene import load_parts
+from grasptypes.versions.guard import ONE_THREAD
 
 
 def measure(settings: Mapping[str, Any], params: Mapping[str, Any]) -> Iterator[Figure]:
     """Ours end as PNG files with ground and shadow; the bare loop's are arrays."""
+    os.environ.update(ONE_THREAD)
     studio = Studio(**{field.name: params["renders"][field.name] for field in fields(Studio)})
     taken_s = []
     with Camera(studio) as camera:

@@ -5,10 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from expected import KEPT
+from expected import KEEPERS, KEPT
 from repository import Repository
-
-KEEPERS = ("evaluate_labels", "replay_grasps", "compare_shapes")
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:

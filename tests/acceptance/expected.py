@@ -103,7 +103,8 @@ NO_RESULT_CODE: dict[str, str] = {
 }
 
 
-# Tables that a user without measuring data has from git and keeps.
+# What is measured with data of the user's own, and the tables that who has none keeps from git.
+KEEPERS = ("evaluate_labels", "replay_grasps", "compare_shapes")
 KEPT = (
     "reports/label_agreement.csv",
     "reports/label_cross_validation.csv",

@@ -22,18 +22,25 @@ COMMON_INSTRUCTIONS = {
     "NUMBA_CPU_NAME": "haswell",
 }
 
+# A job computes with one thread, so that results do not depend on how many there are and a cluster
+# gets what it was asked for. Mesa counts the threads beside the one that calls it.
+ONE_THREAD = {
+    "OMP_NUM_THREADS": "1",
+    "OPENBLAS_NUM_THREADS": "1",
+    "MKL_NUM_THREADS": "1",
+    "LP_NUM_THREADS": "0",
+}
+
 
 def use_this_checkout(root: str | Path) -> None:
     """Make jobs run this checkout's code with the Python that runs Snakemake, one thread each.
 
-    One thread a job keeps the results independent of the number of jobs; instructions that all
-    processors with AVX2 have keep them independent of the processor.
+    Instructions that all processors with AVX2 have keep results independent of the processor.
     """
     paths = [str(Path(root) / "src"), os.environ.get("PYTHONPATH", "")]
     os.environ["PYTHONPATH"] = os.pathsep.join(filter(None, paths))
     os.environ["PATH"] = os.pathsep.join([str(Path(sys.executable).parent), os.environ["PATH"]])
-    for variable in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
-        os.environ[variable] = "1"
+    os.environ.update(ONE_THREAD)
     os.environ["PYTHONHASHSEED"] = "0"
     if "avx2" in processor_features():
         os.environ.update(COMMON_INSTRUCTIONS)
