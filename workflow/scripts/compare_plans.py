@@ -7,6 +7,7 @@ from typing import Any
 from grasptypes.files import write_text
 from grasptypes.jobs import job
 from grasptypes.labels.samples import LABELS, read_samples
+from grasptypes.objects.variants import base_of
 from grasptypes.planning.plan_comparison import (
     CHOICES,
     LABELLED,
@@ -45,6 +46,8 @@ def cases(
     found = []
     for row in read_samples(inputs["samples"]).itertuples():
         name = str(row.object), str(row.task)
+        if name[0] != base_of(name[0]):
+            continue
         kinds = [spelled(label.removeprefix("label_")) for label in LABELS if getattr(row, label)]
         chosen = predicted.get(name) or predicted[name[0], ""]  # "" where the model sees no task
         types = {PREDICTED: chosen, LABELLED: kinds}

@@ -41,9 +41,9 @@ def evaluate_labels(judged: Judged, settings: Mapping[str, Any], table: Path, fi
 
 def validate_thresholds(judged: Judged, settings: Mapping[str, Any], table: Path) -> str:
     """Fit on all objects that `fitted_on` names but one, in turn; returns a line to log."""
-    softness, start = (Thresholds(**settings[name]) for name in ("softness", "thresholds"))
+    softness = Thresholds(**settings["softness"])
     known = judged.select(np.isin(judged.objects, settings["fitted_on"]))
-    scores = cross_validate(known, softness, start)
+    scores = cross_validate(known, softness)
     write_table(scores, table, THRESHOLD_SCHEMA)
     total = scores.iloc[-1]
     return f"leaving objects out: accuracy {total.accuracy:.3f}, kappa {total.kappa:.3f}"

@@ -146,15 +146,15 @@ def confusion(judged: Judged, predicted: NDArray[np.int64]) -> NDArray[np.int64]
     return counts
 
 
-def fit_thresholds(judged: Judged, softness: Thresholds, start: Thresholds) -> Thresholds:
+def fit_thresholds(judged: Judged, softness: Thresholds) -> Thresholds:
     """Thresholds with the highest expected accuracy if each branch is taken by a logistic chance.
 
     The chance depends on the logarithm of measure over threshold, divided by `softness`: a smooth
-    aim has a broad best value, where plain accuracy has many narrow ones.
+    aim has a broad best value, where plain accuracy has many narrow ones. The search begins at the
+    medians of the measures, so that the result is a matter of these grasps alone.
 
     Args:
         softness: widths in natural logarithms.
-        start: where the search begins.
     """
     measured = np.log(np.maximum(np.stack(judged.measures), 1e-6))
     widths = np.asarray(softness)[:, None]
@@ -165,7 +165,8 @@ def fit_thresholds(judged: Judged, softness: Thresholds, start: Thresholds) -> T
         return -float(chance[judged.labels, np.arange(len(judged.labels))].mean())
 
     options = {"maxiter": 600, "xatol": 1e-4, "fatol": 1e-7}
-    best = minimize(loss, np.log(start), method="Nelder-Mead", options=options)
+    start = np.median(measured, axis=1)
+    best = minimize(loss, start, method="Nelder-Mead", options=options)
     return Thresholds(*(float(value) for value in np.exp(best.x)))
 
 
@@ -179,7 +180,7 @@ def _type_chances(off_palm: Array, open_hand: Array, three: Array, large: Array)
     )
 
 
-def cross_validate(judged: Judged, softness: Thresholds, start: Thresholds) -> pd.DataFrame:
+def cross_validate(judged: Judged, softness: Thresholds) -> pd.DataFrame:
     """Label each object with thresholds fitted on all others.
 
     Returns:
@@ -191,9 +192,9 @@ def cross_validate(judged: Judged, softness: Thresholds, start: Thresholds) -> p
     fitted = []
     for name in names:
         own = judged.objects == name
-        fitted.append(fit_thresholds(judged.select(~own), softness, start))
+        fitted.append(fit_thresholds(judged.select(~own), softness))
         predicted[own] = classify(judged.select(own).measures, fitted[-1])
-    fitted.append(fit_thresholds(judged, softness, start))
+    fitted.append(fit_thresholds(judged, softness))
     words = [f"{len(names) - 1} other objects"] * len(predicted)
     table = agreement(judged, predicted, words)
     return pd.concat([table, pd.DataFrame(fitted).round(5)], axis=1)

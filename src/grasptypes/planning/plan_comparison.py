@@ -18,7 +18,7 @@ import pandera.pandas as pa
 
 from grasptypes.labels.grasp_type import GRASP_TYPES
 from grasptypes.planning.plan_contacts import grips_of, plan_contacts
-from grasptypes.planning.planner import Planned, Workshop, plan
+from grasptypes.planning.planner import Workshop, plan
 
 PREDICTED, LABELLED, ANY = "predicted", "labelled", "any"
 CHOICES = (PREDICTED, LABELLED, ANY)
@@ -31,7 +31,7 @@ PLANNING_SCHEMA = pa.DataFrameSchema(
         "types": pa.Column(str, description="planned for, separated by semicolons"),
         "sessions": pa.Column(int, pa.Check.ge(1)),
         "tests": pa.Column(int, pa.Check.ge(0), description="hands that physics saw"),
-        "valid": pa.Column(int, pa.Check.ge(0)),
+        "valid": pa.Column(int, pa.Check.ge(0), description="sessions with a valid grasp"),
         "energy": pa.Column(float, nullable=True, description="of the best valid grasp"),
         "valid_predicted": pa.Column(int, pa.Check.ge(0), description="of a predicted type"),
         "energy_predicted": pa.Column(float, nullable=True),
@@ -80,9 +80,9 @@ def outcome(case: Case) -> dict[str, Any]:
         "types": "; ".join(types),
         "sessions": len(planned.grasps),
         "tests": tests(planned.attempts),
-        **_counts(planned, "", GRASP_TYPES[:-1]),
-        **_counts(planned, "_predicted", case.types[PREDICTED]),
-        **_counts(planned, "_labelled", case.types[LABELLED]),
+        **_counts(planned.attempts, "", GRASP_TYPES[:-1]),
+        **_counts(planned.attempts, "_predicted", case.types[PREDICTED]),
+        **_counts(planned.attempts, "_labelled", case.types[LABELLED]),
     }
 
 
@@ -133,9 +133,13 @@ def _outcomes(cases: Sequence[Case], jobs: int) -> Iterator[dict[str, Any]]:
         yield from pool.map(outcome, cases)
 
 
-def _counts(planned: Planned, suffix: str, types: Sequence[str]) -> dict[str, Any]:
-    found = planned.grasps[planned.grasps.valid & planned.grasps.grasp_type.isin(types)]
-    return {f"valid{suffix}": len(found), f"energy{suffix}": found.energy.min()}
+def _counts(attempts: pd.DataFrame, suffix: str, types: Sequence[str]) -> dict[str, Any]:
+    """Sessions with a valid grasp of the types among all their tries, and the best energy.
+
+    Not the grasp that the plan chose of each session: that depends on the types planned for.
+    """
+    found = attempts[attempts.valid & attempts.grasp_type.isin(types)]
+    return {f"valid{suffix}": found.session.nunique(), f"energy{suffix}": found.energy.min()}
 
 
 def _all_there(energies: pd.Series) -> bool:

@@ -5,15 +5,17 @@ from __future__ import annotations
 import pandas as pd
 
 from grasptypes.labels.samples import TYPES
+from grasptypes.predictors.leaving_out import members_by_object
 from grasptypes.predictors.metrics import softmax
 from grasptypes.predictors.prediction import Answer, sigmoid, wanted_types
 from grasptypes.predictors.problem import Problem
 from grasptypes.predictors.protocol import try_splits
-from grasptypes.predictors.training import members_by_group
 
 
 def unseen_types(problem: Problem, seeds: int, seed: int) -> dict[tuple[str, str], list[str]]:
     """Chosen types of every object and task, from predictors trained on all other objects.
+
+    Variants of an object are left out with it, and have no answer of their own.
 
     The views' answers are averaged, as for a user's mesh.
 
@@ -22,7 +24,7 @@ def unseen_types(problem: Problem, seeds: int, seed: int) -> dict[tuple[str, str
         seed: added to every draw.
     """
     examples = problem.examples
-    members = members_by_group(examples.index["object"], seeds)
+    members = members_by_object(examples.index["object"], seeds)
     key = ("unseen", problem.model, seed)
     predictions = try_splits(examples, members, problem.recipe, key, problem.backbone).predictions
     return {

@@ -59,8 +59,7 @@ def test_confusion_counts_people_in_rows():
 
 
 def test_the_fit_finds_thresholds_that_made_the_labels():
-    start = Thresholds(0.03, 0.04, 0.08, 0.10)
-    fitted = fit_thresholds(made_up(), SOFTNESS, start)
+    fitted = fit_thresholds(made_up(), SOFTNESS)
     np.testing.assert_allclose(fitted, TRUE, rtol=0.12)
 
 
@@ -69,7 +68,7 @@ def test_cross_validation_labels_each_object_without_its_own_poses():
     # One object whose labels follow other thresholds: it must not pull its own along.
     odd = judged.objects == "pan"
     labels = np.where(odd, (judged.labels + 1) % len(TYPES), judged.labels)
-    table = cross_validate(judged._replace(labels=labels), SOFTNESS, TRUE)
+    table = cross_validate(judged._replace(labels=labels), SOFTNESS)
     THRESHOLD_SCHEMA.validate(table)
     scores = table.set_index("object").accuracy
     assert scores["pan"] < 0.1

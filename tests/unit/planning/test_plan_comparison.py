@@ -27,15 +27,18 @@ TYPES = {PREDICTED: ["Precision"], LABELLED: ["Small Wrap", "Large Wrap"]}
 
 @pytest.fixture
 def planned(monkeypatch):
-    """A plan that costs nothing: five tries of three sessions, two of them valid."""
-    attempts = pd.DataFrame({"moved_m": [0.0, 0.001, 0.2, 0.0, 0.002]})
-    grasps = pd.DataFrame(
+    """A plan that costs nothing: five tries of three sessions, of which two hold."""
+    attempts = pd.DataFrame(
         {
-            "grasp_type": ["Small Wrap", "Invalid", "Large Wrap"],
-            "valid": [True, False, True],
-            "energy": [0.5, 0.1, 0.3],
+            "session": [1, 1, 2, 2, 3],
+            "moved_m": [0.0, 0.001, 0.2, 0.0, 0.002],
+            "grasp_type": ["Invalid", "Small Wrap", "Invalid", "Invalid", "Large Wrap"],
+            "valid": [False, True, False, False, True],
+            "energy": [0.2, 0.5, 0.1, 0.4, 0.3],
         }
     )
+    # What the plan chose of each session plays no part.
+    grasps = attempts.drop_duplicates("session")
     asked = {}
     contacts = plan_comparison.__name__ + ".plan_contacts"
     monkeypatch.setattr(contacts, lambda folder, scan, grips, *rest: asked.update(grips=grips))
