@@ -96,10 +96,9 @@ if workflow.is_main_process and running_lock and was_due:
 rule all:
     default_target: True
     input:
-        rules.tabulate_simulated.output,
-        rules.tabulate_published.output,
+        [TABLES[labels] for labels in LABELS],
         rules.tabulate_unseen.output,
-        rules.compare_distribution.output,
+        DISTRIBUTION,
         rules.summarise_scores.output,
         expand(rules.picture_grasps.output, object=OBJECTS),
         rules.plot_grasps.output,

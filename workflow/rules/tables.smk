@@ -89,15 +89,24 @@ use rule tabulate_simulated as tabulate_unseen with:
         "Tabulating the models on objects they have not seen"
 
 
+# The tables of the label sources in use.
+TABLES = {
+    "simulated": rules.tabulate_simulated.output,
+    "published": rules.tabulate_published.output,
+}
+# Without an object of the authors there is nothing to compare the grasp types with.
+DISTRIBUTION = rules.compare_distribution.output if KNOWN["published"].objects else []
+
+
 # What `dvc metrics show` and `dvc metrics diff` read.
 rule summarise_scores:
     input:
-        known=[rules.tabulate_simulated.output.table, rules.tabulate_published.output.table],
+        known=[TABLES[labels].table for labels in LABELS],
         unseen=rules.tabulate_unseen.output.table,
         grasps=rules.label_grasps.output.grasps,
-        distribution=rules.compare_distribution.output.table,
+        distribution=DISTRIBUTION and DISTRIBUTION.table,
     output:
-        models=expand("reports/scores/{labels}/{model}.json", labels=SAMPLES, model=MODELS),
+        models=expand("reports/scores/{labels}/{model}.json", labels=LABELS, model=MODELS),
         grasps="reports/scores/grasps.json",
     log:
         "logs/summarise_scores.log",

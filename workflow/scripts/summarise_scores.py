@@ -32,5 +32,6 @@ if __name__ == "__main__":
         files = {(Path(p).parent.name, Path(p).stem): p for p in snakemake.output.models}
         summarise_scores(snakemake.input.known, snakemake.input.unseen, files)
         dataset = read_table(snakemake.input.grasps, DATASET_SCHEMA)
-        distribution = read_table(snakemake.input.distribution, DISTRIBUTION_SCHEMA)
+        compared = snakemake.input.distribution
+        distribution = read_table(compared, DISTRIBUTION_SCHEMA) if compared else None
         write_json(snakemake.output.grasps, grasp_scores(dataset, distribution))

@@ -31,18 +31,21 @@ def model_scores(
     return scores
 
 
-def grasp_scores(dataset: pd.DataFrame, distribution: pd.DataFrame) -> Mapping[str, Any]:
+def grasp_scores(dataset: pd.DataFrame, distribution: pd.DataFrame | None) -> Mapping[str, Any]:
     """How many grasps are valid, and how alike their types' counts are to the published ones.
 
     Args:
         dataset: of `dataset.DATASET_SCHEMA`.
-        distribution: of `distribution.DISTRIBUTION_SCHEMA`, whose last row is the mean.
+        distribution: of `distribution.DISTRIBUTION_SCHEMA`, whose last row is the mean; None if
+            no object has published counts, and then there is no similarity.
     """
-    return {
+    scores: dict[str, Any] = {
         "tried": len(dataset),
         "valid": int((dataset.GraspType != "Invalid").sum()),
-        "similarity": round(float(distribution.similarity.iloc[-1]), DIGITS),
     }
+    if distribution is not None:
+        scores["similarity"] = round(float(distribution.similarity.iloc[-1]), DIGITS)
+    return scores
 
 
 def _measures(table: pd.DataFrame) -> dict[tuple[str, str], dict[str, Any]]:

@@ -32,3 +32,4 @@ def test_grasps_are_counted_and_the_last_row_of_the_comparison_is_its_mean() -> 
     dataset = pd.DataFrame({"GraspType": ["Precision", "Invalid", "Large Wrap"]})
     distribution = pd.DataFrame({"similarity": [0.1, 0.3, 0.2]})
     assert grasp_scores(dataset, distribution) == {"tried": 3, "valid": 2, "similarity": 0.2}
+    assert grasp_scores(dataset, None) == {"tried": 3, "valid": 2}
