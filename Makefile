@@ -85,10 +85,8 @@ doctor: setup ## find results edited by hand and settings that would spoil them
 publish: setup ## show finished results in MLflow; adds nothing that is there already
 	python -m grasptypes.runs.publishing
 
-ui: publish ## the MLflow UI on 127.0.0.1, few processes
-	@echo "runs: http://127.0.0.1:$(UI_PORT)/#/experiments/1/runs?workflowType=machine_learning&viewStateShareKey=results"
-	MLFLOW_SERVER_ENABLE_JOB_EXECUTION=false mlflow ui --backend-store-uri sqlite:///$(CURDIR)/mlflow.db \
-	    --host 127.0.0.1 --port $(UI_PORT) --workers 1
+ui: setup ## publish, then the MLflow UI on 127.0.0.1, few processes
+	@python -m grasptypes.runs.ui --port $(UI_PORT)
 
 # What the main job does not make, for want of data or time, and what the jobs cost: shown if it is there.
 EXTRAS := reports/replay.csv reports/object_shapes.csv reports/figures/label_confusion.png \

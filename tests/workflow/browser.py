@@ -112,12 +112,12 @@ def make(*arguments: str) -> tuple[str, ...]:
 
 @contextlib.contextmanager
 def served_runs(repository: Repository) -> Iterator[str]:
-    """`make ui` in a repository whose runs are published; the link that it prints."""
+    """`make ui` in a repository; the link that it prints."""
     with socket.socket() as probe:
         probe.bind(("127.0.0.1", 0))
         port = probe.getsockname()[1]
     process = subprocess.Popen(
-        make("-o", "publish", "ui", f"UI_PORT={port}"),
+        make("ui", f"UI_PORT={port}"),
         cwd=repository.path,
         env=repository.environment(),
         stdout=subprocess.PIPE,
@@ -127,7 +127,7 @@ def served_runs(repository: Repository) -> Iterator[str]:
     )
     try:
         assert process.stdout is not None
-        # Below another make, the first line says which folder this one entered.
+        # Before it stands what was published.
         link = next(line for line in process.stdout if line.startswith("runs:")).split()[-1]
         threading.Thread(target=process.stdout.read, daemon=True).start()
         _wait_for_server(f"http://127.0.0.1:{port}/health")

@@ -89,11 +89,11 @@ def _click_through(driver: Chrome, category: str, folder: Path) -> int:
 
 
 def test_the_runs_fold_below_their_models_and_show_the_measures(
-    complete: Repository, chromium: Chrome, tmp_path: Path
+    changed: Repository, chromium: Chrome, tmp_path: Path
 ) -> None:
     models = sorted(f"{labels} {model}" for labels in LABELS for model in MODELS)
     folds = [f"fold {fold}, seed 0" for fold in range(2)]
-    with served_runs(complete) as link:
+    with served_runs(changed) as link:
         chromium.get(link)
         wait_for(chromium, f"{RUNS}.length >= arguments[0]", len(models))
         assert sorted(chromium.execute_script(f"return {NAMES}")) == models

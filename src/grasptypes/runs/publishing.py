@@ -27,6 +27,7 @@ from grasptypes.predictors.weights import Weights
 from grasptypes.runs.due import note_done
 from grasptypes.runs.run_records import Finished, file_digest, run_record, serving_requirements
 from grasptypes.runs.tracking import LoggedModel, Store, publish
+from grasptypes.versions.job_records import recorded_params
 
 logger = logging.getLogger(__name__)
 
@@ -43,16 +44,30 @@ VERSIONED = (
 
 
 def finished_models(root: Path) -> list[Finished]:
-    """Every model and label source whose files are all there, in the order of their names."""
+    """Every model and label source whose files are all there, in the order of their names.
+
+    params.yaml may have changed since: Snakemake's record tells what a model was trained with.
+    """
     found = []
     for card in sorted(root.glob("models/*/*/predictor.json")):
         name = Path(*card.parts[-3:-1])
         metrics = root / "reports/metrics" / name.with_suffix(".csv")
         curves = root / "reports/loss_curves" / name.with_suffix(".csv")
-        files = Finished(metrics, curves, card.with_name("predictor.safetensors"), card)
-        if metrics.is_file() and curves.is_file() and files.tensors.is_file():
-            found.append(files)
+        tensors = card.with_name("predictor.safetensors")
+        if not (metrics.is_file() and curves.is_file() and tensors.is_file()):
+            continue
+        settings = _settings(card.relative_to(root), root)
+        if settings is None:
+            logger.warning("%s is left out: no record of what it was trained with", name)
+        else:
+            found.append(Finished(metrics, curves, tensors, card, settings))
     return found
+
+
+def _settings(card: Path, root: Path) -> Mapping[str, Any] | None:
+    """The section of the parameters among those of the training job; others have other keys."""
+    recorded = recorded_params(str(card), root)
+    return next((part for part in recorded if isinstance(part, dict) and "finetune" in part), None)
 
 
 def version_tags(root: Path) -> dict[str, str]:
@@ -74,19 +89,16 @@ def checksum(path: Path) -> str:
 
 
 def publish_runs(
-    finished: Sequence[Finished], root: Path, tags: Mapping[str, str], params: Mapping[str, Any]
+    finished: Sequence[Finished], root: Path, tags: Mapping[str, str], store: Store
 ) -> int:
     """Upsert a parent run for each finished model, its folds below it, and its predictor.
 
     Without the backbone's weights on this machine the runs are published, the predictors are not.
 
-    Args:
-        params: the whole of params.yaml.
-
     Returns:
         how many runs are new.
     """
-    pairs = [(run_record(files, params["predictors"], tags), files) for files in finished]
+    pairs = [(run_record(files, tags), files) for files in finished]
     models: dict[str, tuple[str, LoggedModel]] = {}
     try:
         weights = recorded_weights(read_backbone_record(root / "data/backbone.json"))
@@ -98,8 +110,6 @@ def publish_runs(
             record.key: (file_digest(files.tensors), _servable(files, weights, example))
             for record, files in pairs
         }
-    settings = params["tracking"]
-    store = Store(root / settings["database"], settings["experiment"], settings["patience_s"])
     return publish(store, [record for record, _ in pairs], models, METRICS)
 
 
@@ -123,20 +133,37 @@ def _git(root: Path, *arguments: str) -> str:
     return subprocess.run(command, capture_output=True, text=True, check=False).stdout.strip()
 
 
+def chosen_store(root: Path) -> Store:
+    """The store that params.yaml names.
+
+    Raises:
+        InputError: the parameters cannot be read.
+    """
+    settings = read_yaml(root / "params.yaml")["tracking"]
+    return Store(root / settings["database"], settings["experiment"], settings["patience_s"])
+
+
+def publish_folder(root: Path, store: Store) -> None:
+    """Publish a checkout's models and tell how many runs are new.
+
+    Raises:
+        InputError: there are none, or the store cannot be written.
+    """
+    finished = finished_models(root)
+    if not finished:
+        raise InputError("models", "", "holds no finished predictor; run snakemake first")
+    new = publish_runs(finished, root, version_tags(root), store)
+    note_done(root)
+    logger.info("%s: %d models, %d new runs", store.uri, len(finished), new)
+
+
 def main() -> None:
     """Publish the current folder's models; bad input ends with one line."""
     logging.basicConfig(level=logging.INFO, format="%(message)s")
-    root = Path.cwd()
     try:
-        params = read_yaml(root / "params.yaml")
-        finished = finished_models(root)
-        if not finished:
-            raise InputError("models", "", "holds no finished predictor; run snakemake first")
-        new = publish_runs(finished, root, version_tags(root), params)
-        note_done(root)
+        publish_folder(Path.cwd(), chosen_store(Path.cwd()))
     except InputError as error:
         sys.exit(f"error: {error}")
-    logger.info("%s: %d models, %d new runs", params["tracking"]["database"], len(finished), new)
 
 
 if __name__ == "__main__":

@@ -72,23 +72,24 @@ class Finished:
         curves: its loss curves.
         tensors: the final predictor.
         card: its card.
+        settings: what it was trained with, nested as section ``predictors`` of params.yaml.
     """
 
     metrics: Path
     curves: Path
     tensors: Path
     card: Path
+    settings: Mapping[str, Any]
 
 
-def run_record(finished: Finished, params: Mapping[str, Any], tags: Mapping[str, str]) -> RunRecord:
+def run_record(finished: Finished, tags: Mapping[str, str]) -> RunRecord:
     """The parent run of a model and label source, with its folds and seeds as children.
 
-    The keys are made from the tables and the parameters alone: the same results are the same runs,
+    The keys are made from the tables and the settings alone: the same results are the same runs,
     in whatever store, checkout or order they are published.
 
     Args:
-        params: the settings the model was trained with, nested as in params.yaml.
-        tags: what may change without making another run, such as the commit.
+        tags: what is no part of the result, such as the commit; kept as it is when a run is new.
     """
     metrics = read_table(finished.metrics, METRIC_SCHEMA)
     curves = read_table(finished.curves, CURVE_SCHEMA)
@@ -96,7 +97,7 @@ def run_record(finished: Finished, params: Mapping[str, Any], tags: Mapping[str,
     fixed = {
         name: str(first[name]) for name in ("labels", "model", "backbone", "weights", "finetune")
     }
-    shown = fixed | flatten(params)
+    shown = fixed | flatten(finished.settings)
     content = _digest(finished.metrics.read_bytes(), finished.curves.read_bytes(), _json(shown))
     times = _times_ms(finished)
     children = [

@@ -20,7 +20,7 @@ from typing import IO
 
 import mlflow
 import numpy as np
-from mlflow.entities import Metric, Param, Run, RunTag
+from mlflow.entities import LifecycleStage, Metric, Param, Run
 from mlflow.exceptions import MlflowException
 from mlflow.models import ModelSignature
 from mlflow.types import Schema, TensorSpec
@@ -32,8 +32,9 @@ from grasptypes.runs.run_records import RunRecord
 LOGGER = logging.getLogger("grasptypes")
 KEY_TAG = "grasptypes.key"
 MODEL_TAG = "grasptypes.model"
-# MLflow's own tag for a shared view of the runs; the link that `make ui` prints ends with its name.
-VIEW_TAG = "mlflow.sharedViewState.results"
+# MLflow's own tag for a shared view of the runs.
+VIEW = "results"
+VIEW_TAG = f"mlflow.sharedViewState.{VIEW}"
 _BATCH = 1000  # the most metrics MLflow takes at once
 _PARAM_LENGTH = 6000  # the longest parameter MLflow takes
 
@@ -90,6 +91,7 @@ class Store:
         self.database = Path(database).resolve()
         self.experiment = experiment
         self.patience_s = patience_s
+        self.uri = f"sqlite:///{self.database}"
 
     @contextlib.contextmanager
     def opened(self) -> Iterator[OpenStore]:
@@ -107,14 +109,23 @@ class Store:
             with self.database.with_suffix(".lock").open("w") as lock:
                 self._wait_for(lock)
                 self._check_writable()
-                uri = f"sqlite:///{self.database}"
-                mlflow.set_tracking_uri(uri)
-                client = mlflow.MlflowClient(uri)
+                mlflow.set_tracking_uri(self.uri)
+                client = mlflow.MlflowClient(self.uri)
                 yield OpenStore(client, self._experiment_of(client))
         except (OSError, sqlite3.Error, MlflowException, SQLAlchemyError) as error:
             reason = str(error).split("\n")[0]
             later = "results do not depend on it, show them later with: make publish"
             raise InputError(self.database, "", f"cannot be written: {reason}; {later}") from error
+
+    def page(self) -> str:
+        """Where MLflow's UI shows the runs with the measures as columns, below its own address.
+
+        Raises:
+            InputError: as `opened`.
+        """
+        with self.opened() as opened:
+            query = f"workflowType=machine_learning&viewStateShareKey={VIEW}"
+            return f"#/experiments/{opened.experiment}/runs?{query}"
 
     def _wait_for(self, lock: IO[str]) -> None:
         """Take the lock, or raise TimeoutError once patience is over."""
@@ -140,6 +151,8 @@ class Store:
     def _experiment_of(self, client: mlflow.MlflowClient) -> str:
         found = client.get_experiment_by_name(self.experiment)
         if found:
+            if found.lifecycle_stage == LifecycleStage.DELETED:  # in the UI
+                client.restore_experiment(found.experiment_id)
             return str(found.experiment_id)
         folder = self.database.parent / "mlruns"
         return str(client.create_experiment(self.experiment, artifact_location=folder.as_uri()))
@@ -150,25 +163,26 @@ class OpenStore:
 
     def __init__(self, client: mlflow.MlflowClient, experiment: str) -> None:
         self._client = client
-        self._experiment = experiment
+        self.experiment = experiment
 
     def find(self, key: str) -> Run | None:
         """The run with this key."""
         query = f"tags.`{KEY_TAG}` = '{key}'"
-        runs = self._client.search_runs([self._experiment], query, max_results=1)
+        runs = self._client.search_runs([self.experiment], query, max_results=1)
         return runs[0] if runs else None
 
     def upsert(self, record: RunRecord, parent: str | None = None) -> tuple[str, int]:
-        """Write a run and its children; returns its id and the number of runs that are new."""
+        """Write a run and its children; returns its id and the number of runs that are new.
+
+        A run that is there keeps its tags: later commits and data are not those it was made from.
+        """
         run = self.find(record.key)
         added = int(run is None)
         if run is None:
-            tags = {KEY_TAG: record.key, "mlflow.runName": record.name}
+            tags = {**record.tags, KEY_TAG: record.key, "mlflow.runName": record.name}
             tags |= {"mlflow.parentRunId": parent} if parent else {}
-            run = self._client.create_run(self._experiment, start_time=record.start_ms, tags=tags)
+            run = self._client.create_run(self.experiment, start_time=record.start_ms, tags=tags)
         identity = run.info.run_id
-        tags = [RunTag(name, str(value)) for name, value in record.tags.items()]
-        self._client.log_batch(identity, tags=tags)
         if run.info.status != "FINISHED":
             # The run's own times: when an interrupted call is repeated, no value is there twice.
             self._write(identity, record, run.info.start_time)
@@ -180,7 +194,7 @@ class OpenStore:
     def offer_view(self, metrics: Sequence[str]) -> None:
         """Keep a view of the runs that has these metrics as columns."""
         state = json.dumps({"selectedColumns": [f"metrics.`{name}`" for name in metrics]})
-        self._client.set_experiment_tag(self._experiment, VIEW_TAG, state)
+        self._client.set_experiment_tag(self.experiment, VIEW_TAG, state)
 
     def log_model(self, run: str, key: str, model: LoggedModel) -> bool:
         """Log a servable predictor with a run, unless the same one is there; returns if it was."""
@@ -203,7 +217,7 @@ class OpenStore:
     def _forget_models(self, run: str) -> None:
         """Delete the models of a run: halves of calls that were cut off, or older ones."""
         models = self._client.search_logged_models(
-            [self._experiment], filter_string=f"source_run_id = '{run}'"
+            [self.experiment], filter_string=f"source_run_id = '{run}'"
         )
         for model in models:
             self._client.delete_logged_model(model.model_id)

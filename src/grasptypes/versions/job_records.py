@@ -2,20 +2,23 @@
 
 from __future__ import annotations
 
+import ast
 import base64
+import json
 from pathlib import Path
 from typing import Any
 
 RECORDS = ".snakemake/metadata"
+UNFINISHED = ".snakemake/incomplete"
 # Longer names are cut into folders, since file names end at 255 bytes.
 _PART_LENGTH = 254
 
 
-def record_path(result: str) -> Path:
+def record_path(result: str, folder: str = RECORDS) -> Path:
     """Where Snakemake keeps its record of a result: the path in URL-safe base64."""
     name = base64.urlsafe_b64encode(result.encode()).decode()
     *folders, last = [name[i : i + _PART_LENGTH] for i in range(0, len(name), _PART_LENGTH)]
-    return Path(RECORDS, *(f"@{folder}" for folder in folders), last)
+    return Path(folder, *(f"@{part}" for part in folders), last)
 
 
 def recorded_result(record: Path) -> str:
@@ -27,6 +30,21 @@ def recorded_result(record: Path) -> str:
 def is_recorded(result: str) -> bool:
     """Whether a job of this checkout, or of the one it was pulled from, made this result."""
     return record_path(result).is_file()
+
+
+def recorded_params(result: str, root: str | Path = ".") -> list[Any]:
+    """What the job that made a result had for parameters, in Snakemake's order, without names.
+
+    Returns:
+        nothing if there is no record, or if a job was killed before it could renew it.
+    """
+    if (Path(root) / record_path(result, UNFINISHED)).exists():
+        return []
+    try:
+        record = json.loads((Path(root) / record_path(result)).read_text())
+    except FileNotFoundError:
+        return []
+    return [ast.literal_eval(text) for text in record["params"]]
 
 
 def distrust_unrecorded(persistence: type[Any]) -> None:

@@ -4,6 +4,7 @@ import hashlib
 import json
 import logging
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -17,11 +18,20 @@ from grasptypes.params import read_yaml
 from grasptypes.predictors.metrics import METRICS
 from grasptypes.predictors.weights import WEIGHTS_VARIABLE
 from grasptypes.reports.results import CURVE_SCHEMA, METRIC_SCHEMA
-from grasptypes.runs.publishing import checksum, finished_models, publish_runs, version_tags
-from grasptypes.runs.tracking import KEY_TAG
+from grasptypes.runs import ui
+from grasptypes.runs.publishing import (
+    checksum,
+    chosen_store,
+    finished_models,
+    publish_runs,
+    version_tags,
+)
+from grasptypes.runs.tracking import KEY_TAG, Store
 from grasptypes.tables import write_table
+from grasptypes.versions.job_records import UNFINISHED, record_path
 
 PROJECT = Path(__file__).parents[3]
+CARD = "models/simulated/no_task/predictor.json"
 
 
 def git(root, *arguments):
@@ -34,8 +44,11 @@ def git(root, *arguments):
 def results(tmp_path_factory):
     """A checkout with one trained model: two folds, one seed."""
     root = tmp_path_factory.mktemp("checkout")
+    params = read_yaml(PROJECT / "params.yaml")
+    trained_with = ["'c0de'", "0", repr(params["predictors"]), repr(params["tasks"])]
     files = {
         "params.yaml": (PROJECT / "params.yaml").read_text(),
+        str(record_path(CARD)): json.dumps({"rule": "train_predictor", "params": trained_with}),
         "dvc.lock": "schema: '2.0'\n",
         "data/samples.csv": "object,task\n",
         "data/folds.csv": "object,view,fold\n",
@@ -44,7 +57,7 @@ def results(tmp_path_factory):
         "data/backbone.json": json.dumps(
             {"backbone": "mobilenet_v2", "weights": "elsewhere", "sha256": "0", "input_px": 224}
         ),
-        "models/simulated/no_task/predictor.json": "{}",
+        CARD: "{}",
         "models/simulated/no_task/predictor.safetensors": "",
         ".gitignore": "/mlflow.*\n/mlruns/\n",
     }
@@ -75,8 +88,7 @@ def results(tmp_path_factory):
 
 def publish(root):
     """What ``make publish`` does; returns how many runs are new."""
-    tags = version_tags(root)
-    return publish_runs(finished_models(root), root, tags, read_yaml(root / "params.yaml"))
+    return publish_runs(finished_models(root), root, version_tags(root), chosen_store(root))
 
 
 def runs(root):
@@ -123,6 +135,49 @@ def test_again_adds_nothing_and_a_store_is_rebuilt_alike(results, tmp_path):
     assert {k: (r.data.params, r.data.metrics, r.info.start_time) for k, r in after.items()} == {
         k: (r.data.params, r.data.metrics, r.info.start_time) for k, r in before.items()
     }
+
+
+def test_runs_show_what_they_were_trained_with_whatever_params_yaml_says_now(results):
+    publish(results)
+    before = (results / "params.yaml").read_text()
+    epochs = read_yaml(results / "params.yaml")["predictors"]["epochs"]
+    (results / "params.yaml").write_text(before.replace(f"  epochs: {epochs}\n", "  epochs: 1\n"))
+    try:
+        assert read_yaml(results / "params.yaml")["predictors"]["epochs"] == 1
+        assert publish(results) == 0
+    finally:
+        (results / "params.yaml").write_text(before)
+    assert {run.data.params["epochs"] for run in runs(results).values()} == {str(epochs)}
+
+
+def test_a_model_whose_settings_nobody_knows_is_left_out(results, caplog):
+    begun = results / record_path(CARD, UNFINISHED)
+    begun.parent.mkdir()
+    begun.touch()  # killed with the files written, and the record still that of older ones
+    assert finished_models(results) == []
+    assert "simulated/no_task is left out" in caplog.text
+    begun.unlink()
+    record = results / record_path(CARD)
+    content = record.read_text()
+    record.unlink()
+    assert finished_models(results) == []
+    record.write_text(content)
+    assert len(finished_models(results)) == 1
+
+
+def test_the_ui_opens_the_chosen_store_at_its_runs_even_if_nothing_can_be_published(
+    results, tmp_path, caplog
+):
+    link = ui.prepare(results, chosen_store(results), 5000)
+    identity = re.fullmatch(r"http://127\.0\.0\.1:5000/#/experiments/(\d+)/runs\?.+", link)[1]
+    assert {run.info.experiment_id for run in runs(results).values()} == {identity}
+    other = Store(tmp_path / "other.db", "other", 60)
+    assert "/#/experiments/1/runs?" in ui.prepare(tmp_path, other, 5000)
+    assert "no finished predictor" in caplog.text
+    damaged = Store(tmp_path / "damaged.db", "other", 60)
+    damaged.database.write_text("no database")
+    assert ui.prepare(results, damaged, 5000) == "http://127.0.0.1:5000/"
+    assert "damaged.db: cannot be written" in caplog.text
 
 
 def test_without_the_weights_the_runs_are_published_all_the_same(results, caplog):

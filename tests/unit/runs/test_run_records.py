@@ -1,5 +1,7 @@
 """Runs from files: keys by content, one child a fold and seed."""
 
+from dataclasses import replace
+
 import pandas as pd
 import pytest
 
@@ -23,7 +25,8 @@ def finished(tmp_path):
         {"group": str(g), "seed": s, "epoch": e, "train_loss": 3.0 - e, "test_loss": 4.0 - e + g}
         for s in range(2) for g in range(2) for e in (1, 2)
     ]  # fmt: skip
-    files = Finished(*(tmp_path / name for name in ("m.csv", "c.csv", "p.safetensors", "p.json")))
+    names = ("m.csv", "c.csv", "p.safetensors", "p.json")
+    files = Finished(*(tmp_path / name for name in names), PARAMS)
     write_table(pd.DataFrame(rows), files.metrics, METRIC_SCHEMA)
     write_table(pd.DataFrame(curves), files.curves, CURVE_SCHEMA)
     files.card.write_text("{}")
@@ -31,7 +34,7 @@ def finished(tmp_path):
 
 
 def test_parent_holds_mean_and_spread_and_children_their_own(finished):
-    record = run_record(finished, PARAMS, {"commit": "abc"})
+    record = run_record(finished, {"commit": "abc"})
     assert record.metrics["angular_similarity"] == pytest.approx(0.55)
     assert record.metrics["angular_similarity_sd"] == pytest.approx(0.0577, abs=1e-4)
     assert len(record.children) == 4
@@ -43,14 +46,14 @@ def test_parent_holds_mean_and_spread_and_children_their_own(finished):
 
 
 def test_keys_are_made_from_content_alone(finished):
-    record = run_record(finished, PARAMS, {"commit": "abc"})
+    record = run_record(finished, {"commit": "abc"})
     keys = [record.key, *(child.key for child in record.children)]
     assert len(set(keys)) == 5
-    again = run_record(finished, PARAMS, {"commit": "def"})
+    again = run_record(finished, {"commit": "def"})
     assert [again.key, *(child.key for child in again.children)] == keys
-    assert run_record(finished, PARAMS | {"seeds": 3}, {}).key != record.key
+    assert run_record(replace(finished, settings=PARAMS | {"seeds": 3}), {}).key != record.key
     finished.metrics.write_text(finished.metrics.read_text().replace("0.6", "0.7"))
-    assert run_record(finished, PARAMS, {}).key != record.key
+    assert run_record(finished, {}).key != record.key
 
 
 def test_nested_settings_are_flattened():

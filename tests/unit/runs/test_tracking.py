@@ -77,13 +77,13 @@ def test_folds_are_children_of_their_model(template):
     assert all(row[-1] == "FINISHED" for row in rows.values())
 
 
-def test_publishing_again_adds_nothing_but_renews_tags(template):
+def test_publishing_again_adds_nothing_and_keeps_the_commit(template):
     before = shown(template)
     assert publish(template, [replace(PARENT, tags={"commit": "def"})], {}) == 0
     assert shown(template) == before
     with template.opened() as opened:
         run = opened.find("parent")
-        assert run.data.tags["commit"] == "def"
+        assert run.data.tags["commit"] == "abc"
     client = mlflow.MlflowClient(f"sqlite:///{template.database}")
     with template.opened() as opened:
         child = opened.find("child0").info.run_id
@@ -96,11 +96,20 @@ def test_a_deleted_store_is_rebuilt_with_the_same_runs(template, tmp_path):
     assert shown(again) == shown(template)
 
 
+def test_an_experiment_that_was_deleted_in_the_ui_is_restored(tmp_path):
+    store = Store(tmp_path / "mlflow.db", "test", 60)
+    assert publish(store, [PARENT], {}) == 3
+    client = mlflow.MlflowClient(store.uri)
+    client.delete_experiment(client.get_experiment_by_name("test").experiment_id)
+    assert publish(store, [PARENT], {}) == 0
+    assert len(shown(store)) == 3
+
+
 def test_an_interrupted_call_is_finished_without_doubling(template):
     begun = replace(PARENT, key="begun", children=())
     with template.opened() as opened:
         client = opened._client
-        run = client.create_run(opened._experiment, start_time=1000, tags={KEY_TAG: "begun"})
+        run = client.create_run(opened.experiment, start_time=1000, tags={KEY_TAG: "begun"})
         opened._write(run.info.run_id, begun, 1000)  # killed before it was marked as finished
     assert publish(template, [begun], {}) == 0
     history = client.get_metric_history(run.info.run_id, "similarity_mean")
