@@ -63,6 +63,16 @@ def test_a_cache_of_links_is_refused(repository: Repository) -> None:
     assert "dvc config cache.type reflink,copy" in output
 
 
+def test_scans_are_inputs_of_the_table_that_is_measured_with_them(
+    repository: Repository, tmp_path: Path
+) -> None:
+    scan = tmp_path / "scans" / "mug.stl"
+    scan.parent.mkdir()
+    scan.touch()
+    named = {"GRASPTYPES_REFERENCE_MESHES": str(scan.parent)}
+    assert str(scan) in repository.run("snakemake", "compare_shapes", "--filegraph", **named)
+
+
 def tool(name: str) -> str:
     path = shutil.which(name, path=str(Path(sys.executable).parent))
     assert path is not None, f"{name} is not installed"

@@ -92,9 +92,10 @@ rule contact_maps:
         "All contact maps are drawn"
 
 
-# The references are no input: few users have them, and the table in the repository stays then.
+# Few users have the references; without them the table in the repository stays.
 rule compare_shapes:
     input:
+        references=reference_meshes(),
         properties=expand(rules.prepare_object.output.properties, object=OBJECTS),
         surfaces=expand(rules.prepare_object.output.surface, object=OBJECTS),
     output:
@@ -114,6 +115,7 @@ rule compare_shapes:
         "../envs/grasptypes.yaml"
     params:
         samples=config["objects"]["comparison"],
+        data=lambda wildcards: hashes(reference_meshes()),
         code=script_hash("compare_shapes"),
     message:
         "Comparing the objects with reference meshes"
