@@ -34,7 +34,7 @@ def parser() -> argparse.ArgumentParser:
 
 
 def main(arguments: Sequence[str] | None = None) -> None:
-    """Run one command; bad input ends with one line and exit status 1."""
+    """Run one command; bad input, or a full disk, ends with one line and exit status 1."""
     asked = parser().parse_args(arguments)
     logging.basicConfig(level=logging.ERROR)
     warnings.simplefilter("ignore")
@@ -42,6 +42,9 @@ def main(arguments: Sequence[str] | None = None) -> None:
         sys.stdout.write(COMMANDS[asked.command].run(asked))
     except InputError as error:
         sys.exit(f"error: {error}")
+    except OSError as error:
+        where = f"{error.filename}: " if error.filename else ""
+        sys.exit(f"error: {where}{error.strerror or error}")
 
 
 if __name__ == "__main__":

@@ -66,6 +66,11 @@ CASES = [
     asked("a picture that is not there", ("predict", "--image", "no.png"), "no.png: no such file"),
     asked("another folder", (*ASK, "--folder", "no"), "no/params.yaml", "--folder"),
     asked("a drawing that is no PNG", (*ASK, "--picture", "cup.jpg"), "cup.jpg", ".png"),
+    asked(
+        "a drawing where none can be made",
+        (*ASK, "--picture", "/proc/cup.png"),
+        "/proc/cup.png: cannot be made",
+    ),
     asked("an unknown model", (*ASK, "--model", "e"), "--model: e", "task_vector"),
     asked("unknown labels", (*ASK, "--labels", "../.."), "--labels: ../..", "simulated, published"),
     asked("a model that is not trained", ASK, f"{MODEL}/predictor.safetensors", "snakemake -j2"),

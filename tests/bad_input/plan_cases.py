@@ -24,6 +24,7 @@ CASES = [
     planned("Invalid for a type", {"--type": "Invalid"}, "--type: Invalid", "Precision"),
     planned("no session", {"--sessions": "0"}, "--sessions", "whole number from 1 up"),
     planned("a mass of nothing", {"--mass-kg": "0"}, "--mass-kg", "not above 0"),
+    planned("a mass that is no number", {"--mass-kg": "abc"}, "--mass-kg", "abc is not a number"),
     planned("a mesh that is not there", {"--object": "no.stl"}, "no.stl: no such file"),
     planned("a file that is no mesh", {"--object": "note.txt"}, "note.txt", ".stl, .obj"),
     planned("a wrong unit", {"--unit": "mm"}, "cup.stl: unit", "unit: m"),

@@ -16,7 +16,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from grasptypes.commands.settings import add_folder, folder_params
+from grasptypes.commands.settings import add_folder, check_place, folder_params
 from grasptypes.errors import InputError
 from grasptypes.objects.units import UNITS_M
 
@@ -166,9 +166,7 @@ def _check_output(folder: Path) -> None:
     """Refuse a folder with something in it, and a place where none can be made."""
     if folder.exists() and (not folder.is_dir() or any(folder.iterdir())):
         raise InputError(folder, "", "is there already and not empty; name another with --output")
-    above = next(parent for parent in folder.parents if parent.exists())
-    if not above.is_dir() or not os.access(above, os.W_OK):
-        raise InputError(folder, "", f"cannot be made: {above} is no folder to write to")
+    check_place(folder)
 
 
 def _move(written: Path, output: Path) -> None:
@@ -178,6 +176,8 @@ def _move(written: Path, output: Path) -> None:
     try:
         shutil.copytree(written, staged)
         os.replace(staged, output)
+    except shutil.Error as error:  # holds a triple for every file that could not be copied
+        raise InputError(output, "", f"cannot be written: {error.args[0][0][-1]}") from error
     finally:
         shutil.rmtree(staged, ignore_errors=True)
 
@@ -188,7 +188,10 @@ def _tell(line: str) -> None:
 
 
 def _positive(text: str) -> float:
-    number = float(text)
+    try:
+        number = float(text)
+    except ValueError as error:
+        raise argparse.ArgumentTypeError(f"{text} is not a number") from error
     if not 0 < number < float("inf"):
         raise argparse.ArgumentTypeError(f"{text} is not above 0")
     return number

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import tempfile
 from pathlib import Path
 from typing import Any
 
@@ -38,11 +39,25 @@ def check_target(path: Path, suffix: str) -> None:
     """Refuse a file that could not be written before anything is computed.
 
     Raises:
-        InputError: another suffix, or a folder.
+        InputError: another suffix, a folder, or a place where nothing can be written.
     """
     if path.suffix.lower() != suffix:
         raise InputError(path, "", f"must end in {suffix}")
     if path.is_dir():
         raise InputError(path, "", "is a folder")
-    if path.parent.exists() and not path.parent.is_dir():
-        raise InputError(path.parent, "", "is not a folder")
+    check_place(path)
+
+
+def check_place(path: Path) -> None:
+    """Refuse a file or folder that could not be made, by a try that leaves nothing behind.
+
+    Raises:
+        InputError: the nearest folder above it that is there cannot be written.
+    """
+    above = next(parent for parent in path.parents if parent.exists())
+    try:
+        with tempfile.TemporaryFile(dir=above):
+            pass
+    except OSError as error:
+        message = f"cannot be made: {above} is no folder to write to"
+        raise InputError(path, "", message) from error

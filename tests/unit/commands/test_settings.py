@@ -5,6 +5,8 @@ from pathlib import Path
 
 import pytest
 
+from grasptypes.__main__ import main
+from grasptypes.commands import plan, predict
 from grasptypes.commands.settings import check_target, folder_params
 from grasptypes.errors import InputError
 
@@ -26,9 +28,28 @@ def test_targets_that_could_not_be_written_are_refused(tmp_path):
     for target, reason in (
         (tmp_path / "picture.jpg", "must end in .png"),
         (tmp_path / "folder.png", "is a folder"),
-        (tmp_path / "file" / "picture.png", "is not a folder"),
+        (tmp_path / "file" / "picture.png", "file is no folder to write to"),
+        (Path("/proc/new/picture.png"), "/proc is no folder to write to"),
     ):
         with pytest.raises(InputError, match=reason):
             check_target(target, ".png")
     check_target(tmp_path / "new" / "picture.PNG", ".png")
     assert not (tmp_path / "new").exists()
+
+
+def test_a_disk_that_fills_up_meanwhile_costs_one_line(monkeypatch):
+    def run(_):
+        Path("/dev/full").write_text("a picture")
+
+    monkeypatch.setattr(predict, "run", run)
+    with pytest.raises(SystemExit) as end:
+        main(["predict", "--image", "cup.png"])
+    assert str(end.value) == "error: No space left on device"
+
+
+def test_a_folder_of_plans_that_cannot_be_copied_is_named(tmp_path):
+    (tmp_path / "written").mkdir()
+    (tmp_path / "written" / "plan.json").symlink_to("nowhere")
+    with pytest.raises(InputError, match=r"out: cannot be written: .*No such file"):
+        plan._move(tmp_path / "written", tmp_path / "out")
+    assert [path.name for path in tmp_path.iterdir()] == ["written"]
