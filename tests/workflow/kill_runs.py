@@ -24,6 +24,7 @@ from verify import checksums
 
 # Another target makes a short trial of this script itself.
 RUN = ("snakemake", "-j2", os.environ.get("GRASPTYPES_KILL_TARGET", TARGET))
+DYING_S = 5.0
 
 
 def runs(root: Path) -> dict[str, int]:
@@ -49,6 +50,14 @@ def processes_in(root: Path) -> list[int]:
                 found.append(int(entry.name))
         except OSError:  # gone, or somebody else's
             continue
+    return found
+
+
+def survivors(root: Path) -> list[int]:
+    """Processes that a kill left alive; a killed one takes a moment to give its memory back."""
+    deadline = time.monotonic() + DYING_S
+    while (found := processes_in(root)) and time.monotonic() < deadline:
+        time.sleep(0.1)
     return found
 
 
@@ -88,7 +97,7 @@ def kill_after(repository: Repository, seconds: float) -> bool:
 
 def faults(repository: Repository, expected: Repository) -> list[str]:
     """Start a killed run again; returns what is other than without the kill."""
-    found = [f"process {number} lives on" for number in processes_in(repository.path)]
+    found = [f"process {number} lives on" for number in survivors(repository.path)]
     again = subprocess.run(
         RUN,
         cwd=repository.path,
