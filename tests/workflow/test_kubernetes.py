@@ -7,6 +7,7 @@ import sys
 from pathlib import Path
 
 import pytest
+import yaml
 from repository import ROOT, Repository
 
 # `create` runs what the manifest says and keeps both; `get` answers from what became of it.
@@ -57,6 +58,30 @@ def test_the_jobs_of_an_object_run_in_one_pod_with_what_they_need(
     assert container["resources"] == {"requests": needs, "limits": needs}
     assert {"name": "GRASPTYPES_PUBLISHED_CSV", "value": ""} in container["env"]
     assert job["spec"]["activeDeadlineSeconds"] == 60 * (2 + 1)
+
+
+def test_the_code_is_copied_to_a_volume_whose_root_stays_as_it_is(tmp_path: Path) -> None:
+    manifests = yaml.safe_load_all((ROOT / "profiles" / "kubernetes" / "run.yaml").read_text())
+    (job,) = [manifest for manifest in manifests if manifest["kind"] == "Job"]
+    (container,) = job["spec"]["template"]["spec"]["containers"]
+    copying, _, running = container["command"][-1].partition("&&")
+    assert "snakemake" in running
+    image, volume = tmp_path / "image", tmp_path / "volume"
+    for folder in (image / "src", image / ".venv", volume / "data"):
+        folder.mkdir(parents=True)
+    for name in ("params.yaml", ".dvcignore", "src/code.py", ".venv/library.py"):
+        (image / name).write_text("new")
+    (volume / "params.yaml").write_text("old")
+    image.chmod(0o700)
+    volume.chmod(0o755)
+    subprocess.run(
+        ["sh", "-c", copying.replace("/opt/grasptypes", str(image))], cwd=volume, check=True
+    )
+    copied = {str(path.relative_to(volume)) for path in volume.rglob("*")}
+    assert copied == {"data", "params.yaml", ".dvcignore", "src", "src/code.py"}
+    assert (volume / "params.yaml").read_text() == "new"
+    # It may belong to somebody else, who alone can change its mode and times.
+    assert volume.stat().st_mode & 0o777 == 0o755
 
 
 @pytest.mark.parametrize(
