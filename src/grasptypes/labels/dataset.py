@@ -89,7 +89,7 @@ def dataset_table(labelled: Sequence[pd.DataFrame]) -> pd.DataFrame:
     """All labelled grasps in the authors' columns and ours: a table of `DATASET_SCHEMA`.
 
     Sorted by object, task and session. `PoseIndex` is the grasp's place among those of its session
-    that were tested, and `Image` the screenshot's place below data/.
+    that were tried, and `Image` the screenshot's place below data/.
     """
     table = pd.concat(labelled, ignore_index=True)
     table = table.sort_values(["object", "task", "session"], ignore_index=True)

@@ -21,8 +21,11 @@ def ceilings(labels: np.ndarray) -> pd.DataFrame:
     """The three reference predictors.
 
     ``task_blind`` knows the object but not the task, ``best_constant`` gives one answer for
-    everything, ``all_types`` answers all types. Vectors are the mean of the unit label vectors,
-    which for two tasks has the largest similarity there is; sets are the best of all sets.
+    everything, ``all_types`` answers all types. Vectors are the mean of the unit label vectors. For
+    two samples no other vector is more similar to both. For more it has the largest mean cosine,
+    not the largest mean angular similarity, so the similarity of ``best_constant``, and that of
+    ``task_blind`` with three tasks or more, is only a lower bound of the best there is. Sets are
+    those of the best accuracy; the precision is theirs, another set may have a better one.
 
     Args:
         labels: (objects, tasks, K) truth values.
@@ -42,7 +45,7 @@ def ceilings(labels: np.ndarray) -> pd.DataFrame:
 
 
 def _best(groups: np.ndarray) -> tuple[float, float, float]:
-    """The best single answer for each group of samples: groups (G, N, K) truth values."""
+    """One answer for each group of samples, see :func:`ceilings`: groups (G, N, K) truth values."""
     units = groups / np.linalg.norm(groups, axis=-1, keepdims=True)
     candidates = np.array(list(product([False, True], repeat=groups.shape[-1]))[1:])
     accuracy = multilabel_accuracy(candidates[:, None, None], groups).mean(axis=-1)

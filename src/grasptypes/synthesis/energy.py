@@ -27,7 +27,7 @@ _THUMB = len(kinematics.LINK_NAMES) - 1
 
 
 class EnergySettings(NamedTuple):
-    """Weights and ranges; ContactGrasp's values are in params.yaml."""
+    """Weights and ranges; their sources are in params.yaml."""
 
     contact_threshold: float
     """Contact from which a point attracts, 0 to 1."""

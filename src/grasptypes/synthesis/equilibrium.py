@@ -1,9 +1,11 @@
 """A quick look at whether the touching points could hold the object still, before any physics.
 
-Contacts that press with a total force of one newton, each within its friction cone, leave at best
-some force and torque unbalanced. That rest is zero exactly if the origin lies in the convex hull
-of the wrenches along the cones' edges (force closure, up to its boundary), so it is found as the
-hull's point of least norm with Gilbert's algorithm (Gilbert 1966).
+Contacts whose normal forces add up to one newton, each within its friction cone, leave at best
+some force and torque unbalanced. That rest is the least norm in the convex hull of the wrenches
+along the cones' edges, each of unit normal force; it is zero exactly if the origin lies in the
+hull (force closure, up to its boundary). It is approached from above with Gilbert's algorithm, so
+what is found after its steps is an upper bound. (E. G. Gilbert, An iterative procedure for
+computing the minimum of a quadratic form on a convex set, SIAM J. Control 4(1), 1966.)
 """
 
 from __future__ import annotations
@@ -40,7 +42,7 @@ def imbalance(
     model: HandModel, grid: Field, link_poses: Array, centre_of_mass_m: Array, radius_m: float,
     settings: EquilibriumSettings,
 ) -> Array:  # fmt: skip
-    """Force that stays unbalanced when each of n hands presses with one newton in all.
+    """Force that stays unbalanced when each of n hands presses with normal forces of 1 N in all.
 
     Args:
         link_poses: (n, 9, 4, 4) links in the object's frame.
@@ -48,7 +50,7 @@ def imbalance(
         radius_m: length that makes torques comparable to forces.
 
     Returns:
-        (n,) newtons, 0 (balanced) to 1; 1 if nothing touches.
+        (n,) newtons, an upper bound, 0 (balanced) to 1; 1 if nothing touches.
     """
     return _imbalance(
         model, grid, link_poses, np.asarray(centre_of_mass_m, dtype=np.float64), float(radius_m),
@@ -86,7 +88,7 @@ def _cone(
     wrenches: Array, first: int, arm: tuple[float, float, float],
     normal: tuple[float, float, float], radius: float, friction: float, edges: int,
 ) -> None:  # fmt: skip
-    """Wrenches along the edges of a friction cone, forces in N and torques in N per `radius`."""
+    """Wrenches along a friction cone's edges, 1 N along the normal each; torques per `radius`."""
     nx, ny, nz = normal
     if abs(nx) < 0.6:
         ux, uy, uz = 0.0, nz, -ny
@@ -108,7 +110,7 @@ def _cone(
 
 @numba.njit(cache=True)
 def _least_norm(points: Array, iterations: int) -> float:
-    """Norm of the point nearest to the origin in the convex hull of points (n, d)."""
+    """Least distance from the origin found in the convex hull of points (n, d): an upper bound."""
     current = points[0].copy()
     for _ in range(iterations):
         lowest, best = np.inf, 0

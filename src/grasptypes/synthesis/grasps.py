@@ -1,4 +1,7 @@
-"""The tables of grasps and of attempts: one row a session, and one a grasp that physics saw."""
+"""The tables of grasps and of attempts: one row a session, and one a grasp that was tried.
+
+Physics saw those attempts whose `moved_m` is above 0; geometry alone rejected the others.
+"""
 
 from __future__ import annotations
 

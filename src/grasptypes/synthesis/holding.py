@@ -90,7 +90,11 @@ class Contact(NamedTuple):
 
 
 class Held(NamedTuple):
-    """What became of a grasp."""
+    """What became of a grasp.
+
+    With `shake`, all fields, also those "at the end of the last test", are of the test in the worst
+    direction of gravity: the first in which the object dropped, or the one in which it moved most.
+    """
 
     dropped: bool
     moved_m: float

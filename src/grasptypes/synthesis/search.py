@@ -47,7 +47,11 @@ class RefinementSettings(NamedTuple):
 
 
 class RankingSettings(NamedTuple):
-    """Which grasps are tried, and in which order."""
+    """Which grasps are tried, and in which order.
+
+    A try is a look by geometry, and a test in physics only if nothing is wrong so far: of `tries`
+    grasps at most, physics may see fewer.
+    """
 
     tries: int
     """How many grasps physics may see."""
@@ -108,10 +112,11 @@ def search_session(
     model: HandModel, thing: Thing, person: Person, settings: SearchSettings,
     draw: np.random.Generator,
 ) -> Ranked:  # fmt: skip
-    """The grasps of one session to be tried in physics, at least one and at most `tries`.
+    """The grasps of one session to be tried, at least one and at most `tries`.
 
-    Grasps that overlap or touch with too few fingers come last: they are there so that a session
-    without a better one still has its grasp.
+    Grasps that overlap or touch with too few fingers have infinite energy and are dropped. Only
+    where a whole batch (all candidates, or all variations of a round) holds no other grasp do they
+    count, so that every session has its grasp.
     """
     targets = draw_targets(person.points_m, person.normals, person.contact, settings.energy, draw)
     shape = settings.shapes[person.grip]
@@ -151,7 +156,7 @@ def _evaluate(
     model: HandModel, thing: Thing, hands: Hands, targets: Targets, shape: ShapeRanges,
     settings: SearchSettings,
 ) -> Ranked:  # fmt: skip
-    """Energies of hands (n); infinite imbalance marks those that must not be ranked."""
+    """Energies of hands (n), infinite for those that must not be ranked; see `search_session`."""
     poses = hands.T_object_hand[:, None] @ kinematics.link_poses(hands.joint_angles_rad)
     close = closeness(model, thing.grid, poses)
     touching = close.gaps_m <= settings.ranking.contact_m
