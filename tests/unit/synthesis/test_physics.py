@@ -73,11 +73,18 @@ def test_a_folded_finger_does_not_push_itself_off_the_palm(body) -> None:
     np.testing.assert_allclose(held.joint_angles_rad[:2], 0.0, atol=0.002)
 
 
-def test_nothing_holds_without_friction_from_below_or_far_away(body) -> None:
-    upside_down = GOOD[0].copy()
-    upside_down[2, 3] = 0.3
+def test_an_open_hand_drops_a_ball_from_above_and_carries_it_from_below(body) -> None:
+    above, wide_open = GOOD[0], kinematics.couple([0.0, 0.0, 0.0, 0.0])
+    below = np.diag([1.0, -1.0, -1.0, 1.0]) @ above
     with physics(URDF, body, SETTINGS) as world:
-        assert world.hold(upside_down, GOOD[1]).dropped
+        assert world.hold(above, wide_open).dropped
+        assert not world.hold(below, wide_open).dropped
+
+
+def test_nothing_holds_far_away_or_without_friction(body) -> None:
+    far = palm_at(0.3)[0]
+    with physics(URDF, body, SETTINGS) as world:
+        assert world.hold(far, GOOD[1]).dropped
     with physics(URDF, body, SETTINGS._replace(friction=0.0)) as world:
         tips = grasp(0.105, 0.0)
         assert world.hold(*tips).dropped
