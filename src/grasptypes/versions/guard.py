@@ -8,6 +8,7 @@ import os
 import shutil
 import sys
 import time
+from collections.abc import Mapping
 from pathlib import Path
 from typing import IO
 
@@ -108,7 +109,7 @@ def remove_leftovers(root: str | Path) -> list[Path]:
     return found
 
 
-def check_cache_links(root: str | Path) -> None:
+def check_cache_links(root: str | Path, environment: Mapping[str, str] = os.environ) -> None:
     """Refuse a DVC cache of hard or symbolic links.
 
     Through a link, a rerun writes into the cache itself: earlier versions are corrupted and stale
@@ -117,13 +118,32 @@ def check_cache_links(root: str | Path) -> None:
     Raises:
         InputError: naming DVC's configuration file and the setting.
     """
-    for name in ("config", "config.local"):
-        path = Path(root) / ".dvc" / name
-        settings = configparser.ConfigParser(strict=False)
-        settings.read(path)
-        types = settings.get("cache", "type", fallback="").strip("\"'")
-        if "link" in types.replace("reflink", ""):
-            message = (
-                f"'{types}' would corrupt earlier versions; use: dvc config cache.type reflink,copy"
-            )
-            raise InputError(path, "cache.type", message)
+    types, source = "", Path()
+    for path in dvc_configs(Path(root), environment):
+        settings = configparser.ConfigParser(strict=False, interpolation=None)
+        try:
+            settings.read(path, encoding="utf-8")
+        except (configparser.Error, UnicodeDecodeError) as error:
+            raise InputError(path, "", f"is no configuration of DVC: {error}") from error
+        if settings.has_option("cache", "type"):
+            types, source = settings.get("cache", "type").strip("\"'"), path
+    if "link" in types.replace("reflink", ""):
+        message = (
+            f"'{types}' would corrupt earlier versions; use: dvc config cache.type reflink,copy"
+        )
+        raise InputError(source, "cache.type", message)
+
+
+def dvc_configs(root: Path, environment: Mapping[str, str]) -> list[Path]:
+    """The configuration files of DVC, the one that counts most last; some may not be there.
+
+    Paths as in `dvc.dirs`, which takes a tenth of a second to import.
+    """
+    user = environment.get("XDG_CONFIG_HOME") or Path.home() / ".config"
+    machine = environment.get("XDG_CONFIG_DIRS", "").split(os.pathsep)[0] or "/etc/xdg"
+    return [
+        Path(environment.get("DVC_SYSTEM_CONFIG_DIR") or Path(machine, "dvc"), "config"),
+        Path(environment.get("DVC_GLOBAL_CONFIG_DIR") or Path(user, "dvc"), "config"),
+        root / ".dvc" / "config",
+        root / ".dvc" / "config.local",
+    ]

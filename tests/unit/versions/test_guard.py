@@ -94,8 +94,42 @@ def test_a_cache_of_links_is_refused(tmp_path: Path, types: str) -> None:
 
 
 def test_copies_and_reflinks_are_fine(tmp_path: Path) -> None:
-    check_cache_links(tmp_path)
+    check_cache_links(tmp_path, {"HOME": "/nowhere", "XDG_CONFIG_HOME": "/nowhere"})
     check_cache_links(Path(__file__).parents[3])
+
+
+def write_config(path: Path, types: str) -> None:
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text(f"[cache]\n    type = {types}\n    dir = /a%b\n")
+
+
+@pytest.mark.parametrize("level", ["global", "system"])
+def test_the_configurations_of_user_and_machine_count_if_the_checkout_says_nothing(
+    tmp_path: Path, level: str
+) -> None:
+    from dvc.config import Config
+
+    environment = {"XDG_CONFIG_HOME": f"{tmp_path}/user", "XDG_CONFIG_DIRS": f"{tmp_path}/machine"}
+    with pytest.MonkeyPatch.context() as patch:
+        for key, value in environment.items():
+            patch.setenv(key, value)
+        path = Path(Config.get_dir(level), "config")
+    write_config(path, "hardlink")
+    with pytest.raises(InputError, match=rf"{path}: cache\.type: 'hardlink'"):
+        check_cache_links(tmp_path, environment)
+    other = {**environment, f"DVC_{level.upper()}_CONFIG_DIR": str(tmp_path / "nowhere")}
+    check_cache_links(tmp_path, other)
+    write_config(tmp_path / ".dvc" / "config", "copy")
+    check_cache_links(tmp_path, environment)
+
+
+@pytest.mark.parametrize("content", [b"type = copy\n", b"[cache]\ntype\n", b"\xff\xfe"])
+def test_a_configuration_that_cannot_be_read_is_named(tmp_path: Path, content: bytes) -> None:
+    (tmp_path / ".dvc").mkdir()
+    (tmp_path / ".dvc" / "config").write_bytes(content)
+    with pytest.raises(InputError, match=r"config: is no configuration of DVC") as error:
+        check_cache_links(tmp_path)
+    assert "\n" not in str(error.value)
 
 
 def test_the_processors_features_are_read(tmp_path: Path) -> None:
