@@ -36,7 +36,7 @@ class Workshop:
         folder: of the prepared object's files.
         urdf: the hand's.
         name: object and task.
-        seed: added to every draw.
+        seed: part of the key of every draw.
         params: the whole of params.yaml.
     """
 

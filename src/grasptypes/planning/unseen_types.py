@@ -21,7 +21,7 @@ def unseen_types(problem: Problem, seeds: int, seed: int) -> dict[tuple[str, str
 
     Args:
         seeds: predictors an object, whose answers are averaged too.
-        seed: added to every draw.
+        seed: part of the key of every draw.
     """
     examples = problem.examples
     members = members_by_object(examples.index["object"], seeds)
