@@ -9,6 +9,8 @@ from pathlib import Path
 
 from grasptypes.errors import InputError
 
+SOURCES = ("simulated", "published")
+
 
 @dataclass(frozen=True)
 class Known:
@@ -46,4 +48,4 @@ def label_sources(
     if "published" in used and not known:
         message = "'published' has none of these objects and tasks; leave it out"
         raise InputError(path, "labels", message)
-    return {"simulated": Known([*objects], [*tasks]), "published": Known(known, known_tasks)}
+    return dict(zip(SOURCES, (Known([*objects], [*tasks]), Known(known, known_tasks)), strict=True))

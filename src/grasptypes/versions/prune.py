@@ -1,9 +1,10 @@
-"""Remove what is left of objects and tasks that are no longer in the parameters.
+"""Remove what is left of objects, tasks and label sources that are no longer in the parameters.
 
 Snakemake never deletes what it no longer makes, and DVC keeps the folders it versions: without
 this, a removed object's files would travel with the data for ever.
 
-``python -m grasptypes.versions.prune`` does it for the ``params.yaml`` of the current folder.
+``python -m grasptypes.versions.prune`` does it for the ``params.yaml`` of the current folder, but
+not while Snakemake is at work there.
 """
 
 from __future__ import annotations
@@ -14,8 +15,10 @@ from collections.abc import Collection
 from pathlib import Path
 
 from grasptypes.errors import InputError
+from grasptypes.labels.label_sources import SOURCES
 from grasptypes.objects.variants import all_objects
 from grasptypes.params import load_params
+from grasptypes.versions.guard import release_dead_lock
 from grasptypes.versions.job_records import RECORDS, recorded_result
 
 OBJECT_FOLDERS = (
@@ -27,21 +30,34 @@ OBJECT_FOLDERS = (
     "data/features",
     "data/screenshots",
     "reports/figures/grasps",
+    "data/generalisation/features",
 )
 TASK_FOLDERS = ("data/contact_maps", "data/grasps", "data/attempts")
 PICTURE_FOLDERS = ("reports/figures/contact_maps",)
+LABEL_FOLDERS = (
+    "models",
+    "reports/metrics",
+    "reports/loss_curves",
+    "reports/unseen",
+    "reports/scores",
+    "data/generalisation",
+)
+# The first that a file lies in says what it belongs to.
+FOLDERS = (*OBJECT_FOLDERS, *PICTURE_FOLDERS, *LABEL_FOLDERS)
 
 logger = logging.getLogger(__name__)
 
 
-def prune(root: str | Path, objects: Collection[str], tasks: Collection[str]) -> list[Path]:
-    """Delete the files, and Snakemake's records, of objects and tasks that are not named.
+def prune(
+    root: str | Path, objects: Collection[str], tasks: Collection[str], labels: Collection[str]
+) -> list[Path]:
+    """Delete the files, and Snakemake's records, of objects, tasks and labels that are not named.
 
     Returns:
         the deleted files, relative to ``root``, sorted.
     """
     root = Path(root)
-    gone = [path for path in _files(root) if not _is_kept(path, objects, tasks)]
+    gone = [path for path in _files(root) if not _is_kept(path, objects, tasks, labels)]
     for path in gone:
         (root / path).unlink()
         _remove_empty_folders((root / path).parent, root)
@@ -54,18 +70,19 @@ def prune(root: str | Path, objects: Collection[str], tasks: Collection[str]) ->
 
 
 def _files(root: Path) -> list[Path]:
-    """Every file that belongs to one object, relative to ``root``."""
-    folders = (root / folder for folder in (*OBJECT_FOLDERS, *PICTURE_FOLDERS))
-    files = (path for folder in folders for path in folder.rglob("*") if path.is_file())
+    """Every file that may belong to one object or label source, relative to ``root``."""
+    files = {path for name in FOLDERS for path in (root / name).rglob("*") if path.is_file()}
     return sorted(path.relative_to(root) for path in files)
 
 
-def _is_kept(path: Path, objects: Collection[str], tasks: Collection[str]) -> bool:
-    folder = next(
-        folder for folder in (*OBJECT_FOLDERS, *PICTURE_FOLDERS) if path.is_relative_to(folder)
-    )
+def _is_kept(
+    path: Path, objects: Collection[str], tasks: Collection[str], labels: Collection[str]
+) -> bool:
+    folder = next(folder for folder in FOLDERS if path.is_relative_to(folder))
     first, *rest = path.relative_to(folder).parts
     name = first.split(".")[0]
+    if folder in LABEL_FOLDERS:
+        return name in labels or name not in SOURCES
     if folder in PICTURE_FOLDERS:
         return name in {f"{object_}_{task}" for object_ in objects for task in tasks}
     if folder in TASK_FOLDERS and rest:
@@ -85,10 +102,15 @@ def main() -> None:
     try:
         # Checked whole: a typing error must not pass for a removed object.
         params = load_params("params.yaml", "workflow/schemas/params.schema.yaml")
+        lock = release_dead_lock()
     except InputError as error:
         sys.exit(f"error: {error}")
-    for path in prune(".", all_objects(params["objects"]), list(params["tasks"])):
-        logger.info("removed %s, which is no longer in params.yaml", path)
+    if lock is None:  # and who holds it has been said
+        sys.exit(1)
+    with lock:
+        objects, tasks, labels = all_objects(params["objects"]), params["tasks"], params["labels"]
+        for path in prune(".", objects, tasks, labels):
+            logger.info("removed %s, which is no longer in params.yaml", path)
 
 
 if __name__ == "__main__":

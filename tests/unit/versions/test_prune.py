@@ -1,10 +1,14 @@
 import base64
+import os
+import shutil
 from pathlib import Path
 
 import pytest
 
-from grasptypes.versions.prune import prune
+from grasptypes.versions.guard import release_dead_lock
+from grasptypes.versions.prune import main, prune
 
+BOTH = ["simulated", "published"]
 FILES = (
     "data/objects/mug/visual.glb",
     "data/objects/pan/visual.glb",
@@ -14,7 +18,13 @@ FILES = (
     "data/renders/mug.zip",
     "data/renders/pan.zip",
     "data/features/pan.npz",
+    "data/generalisation/features/pan.npz",
+    "data/generalisation/published/no_task.csv",
     "data/samples.csv",
+    "models/simulated/no_task/predictor.json",
+    "models/published/no_task/predictor.json",
+    "reports/scores/grasps.json",
+    "reports/scores/published/no_task.json",
     "reports/figures/contact_maps/pan_use.png",
     "reports/figures/contact_maps/mug_use.png",
     "reports/figures/table1.png",
@@ -35,7 +45,7 @@ def root(tmp_path: Path) -> Path:
 
 
 def test_a_removed_object_leaves_nothing_behind(root: Path) -> None:
-    gone = prune(root, ["mug"], ["use", "handoff"])
+    gone = prune(root, ["mug"], ["use", "handoff"], BOTH)
     assert [str(path) for path in gone] == sorted(name for name in FILES if "pan" in name)
     for name in FILES:
         assert (root / name).exists() == ("pan" not in name), name
@@ -44,9 +54,36 @@ def test_a_removed_object_leaves_nothing_behind(root: Path) -> None:
 
 
 def test_a_removed_task_leaves_nothing_behind(root: Path) -> None:
-    gone = prune(root, ["mug", "pan"], ["use"])
+    gone = prune(root, ["mug", "pan"], ["use"], BOTH)
     assert [str(path) for path in gone] == ["data/contact_maps/mug/handoff.npz"]
-    assert prune(root, ["mug", "pan"], ["use"]) == []
+    assert prune(root, ["mug", "pan"], ["use"], BOTH) == []
+
+
+def test_a_label_source_that_is_taken_out_leaves_no_models_behind(root: Path) -> None:
+    gone = prune(root, ["mug", "pan"], ["use", "handoff"], ["simulated"])
+    assert [str(path) for path in gone] == sorted(name for name in FILES if "/published/" in name)
+    assert not (root / "models/published").exists()
+    assert (root / "reports/scores/grasps.json").exists()
+
+
+def test_nothing_is_deleted_while_another_run_is_at_work(
+    root: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    project = Path(__file__).parents[3]
+    (root / "params.yaml").write_bytes((project / "params.yaml").read_bytes())
+    shutil.copytree(project / "workflow/schemas", root / "workflow/schemas")
+    (root / "data/objects/gone").mkdir()
+    (root / "data/objects/gone/visual.glb").touch()
+    monkeypatch.chdir(root)
+    with release_dead_lock(".snakemake"):  # type: ignore[union-attr]
+        with pytest.raises(SystemExit) as end:
+            main()
+        assert end.value.code == 1
+    assert capsys.readouterr().err == f"another run holds this folder: process {os.getpid()}\n"
+    assert (root / "data/objects/gone/visual.glb").exists()
+    main()
+    assert not (root / "data/objects/gone").exists()
+    assert (root / "data/objects/mug").exists()
 
 
 def test_long_paths_are_recorded_in_several_parts(tmp_path: Path) -> None:
@@ -56,5 +93,5 @@ def test_long_paths_are_recorded_in_several_parts(tmp_path: Path) -> None:
     for path in (tmp_path / name, split):
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text("")
-    assert prune(tmp_path, ["mug"], ["use"]) == [Path(name)]
+    assert prune(tmp_path, ["mug"], ["use"], BOTH) == [Path(name)]
     assert not split.exists()
