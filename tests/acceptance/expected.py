@@ -85,7 +85,9 @@ SPECIAL: dict[str, object] = {
 NO_RESULT_CODE: dict[str, str] = {
     "src/grasptypes/__main__.py": "the command line",
     "src/grasptypes/commands": "the command line, which reads results and makes none",
-    "src/grasptypes/exchange": "importers and exporters for other people's files",
+    "src/grasptypes/exchange/dexgraspbench.py": "reads and writes other people's files",
+    "src/grasptypes/exchange/graspit_world.py": "reads and writes other people's files",
+    "src/grasptypes/exchange/multigrippergrasp.py": "reads and writes other people's files",
     "src/grasptypes/runs": "MLflow's view of results",
     "src/grasptypes/versions": "keeps results and tools in step",
     "src/grasptypes/planning": "plans for the user's own meshes; what rules use of it is hashed",
