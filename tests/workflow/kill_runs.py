@@ -24,6 +24,8 @@ from verify import checksums
 
 # Another target makes a short trial of this script itself.
 RUN = ("snakemake", "-j2", os.environ.get("GRASPTYPES_KILL_TARGET", TARGET))
+# What is noted for one target does not pass for another.
+TRIAL = RUN[-1].replace("/", "_")
 DYING_S = 5.0
 
 
@@ -63,8 +65,8 @@ def survivors(root: Path) -> list[int]:
 
 def undisturbed(folder: Path) -> tuple[Repository, float]:
     """The run that nobody killed, computed once, and how long it takes."""
-    fresh, repository = Repository(folder / "fresh"), Repository(folder / "undisturbed")
-    noted = folder / "seconds.json"
+    fresh, repository = Repository(folder / "fresh"), Repository(folder / f"undisturbed_{TRIAL}")
+    noted = folder / f"seconds_{TRIAL}.json"
     if not noted.exists():
         for path in (fresh.path, repository.path):
             shutil.rmtree(path, ignore_errors=True)
@@ -118,6 +120,11 @@ def faults(repository: Repository, expected: Repository) -> list[str]:
     return found
 
 
+def run_name(seed: int, number: int, kills: int) -> str:
+    """Of what is noted about a run, and of its repository: all that decides when it is killed."""
+    return f"run_{number}_seed_{seed}_kills_{kills}_{TRIAL}"
+
+
 def disturb(folder: Path, seed: int, number: int, kills: int) -> list[str]:
     """Kill one run, and its restarts, that many times in all; prints when, and what came of it.
 
@@ -127,7 +134,8 @@ def disturb(folder: Path, seed: int, number: int, kills: int) -> list[str]:
     draw = random.Random(f"{seed} {number}")
     # Moments of the whole run, or of its part that is left to each kill on average.
     moments_s = [draw.uniform(0, whole_s / kills) for _ in range(kills)]
-    repository, noted = Repository(folder / f"run_{number}"), folder / f"run_{number}.json"
+    name = run_name(seed, number, kills)
+    repository, noted = Repository(folder / name), folder / f"{name}.json"
     told = json.loads(noted.read_text()) if noted.exists() else []
     if isinstance(told, str):
         sys.stdout.write(told)
