@@ -119,7 +119,7 @@ def served_runs(repository: Repository) -> Iterator[str]:
     process = subprocess.Popen(
         make("ui", f"UI_PORT={port}"),
         cwd=repository.path,
-        env=repository.environment(),
+        env={**repository.environment(), "PYTHONPATH": str(repository.path / "src")},
         stdout=subprocess.PIPE,
         stderr=subprocess.STDOUT,
         text=True,

@@ -31,8 +31,14 @@ def prepare(root: Path, store: Store, port: int) -> str:
     return f"http://{HOST}:{port}/{page}"
 
 
+def server(store: Store, port: int) -> list[str]:
+    """The command that serves a store on this machine alone, with one process that answers."""
+    command = [sys.executable, "-m", "mlflow", "ui", "--backend-store-uri", store.uri]
+    return [*command, "--host", HOST, "--port", str(port), "--workers", "1"]
+
+
 def main() -> None:
-    """Serve the current folder's runs on this machine alone, with few processes."""
+    """Publish and serve the current folder's runs."""
     logging.basicConfig(level=logging.INFO, format="%(message)s")
     parser = argparse.ArgumentParser(description="The MLflow UI on this checkout's runs.")
     parser.add_argument("--port", type=int, required=True)
@@ -44,9 +50,7 @@ def main() -> None:
     sys.stdout.write(f"runs: {prepare(Path.cwd(), store, port)}\n")
     sys.stdout.flush()
     os.environ["MLFLOW_SERVER_ENABLE_JOB_EXECUTION"] = "false"
-    command = [sys.executable, "-m", "mlflow", "ui", "--backend-store-uri", store.uri]
-    command += ["--host", HOST, "--port", str(port), "--workers", "1"]
-    os.execv(sys.executable, command)
+    os.execv(sys.executable, server(store, port))
 
 
 if __name__ == "__main__":
