@@ -97,7 +97,7 @@ rule all:
     default_target: True
     input:
         [TABLES[labels] for labels in LABELS],
-        rules.tabulate_unseen.output,
+        [rules.tabulate_unseen.output, rules.tabulate_objects.output] if UNSEEN else [],
         DISTRIBUTION,
         rules.summarise_scores.output,
         expand(rules.picture_grasps.output, object=OBJECTS),
@@ -108,6 +108,5 @@ rule all:
         rules.plot_contact_maps.output,
         rules.plot_renders.output,
         rules.tabulate_types.output,
-        rules.tabulate_objects.output,
         rules.plot_folds.output,
         rules.plot_losses.output,

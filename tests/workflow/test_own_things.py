@@ -30,10 +30,15 @@ def test_published_labels_of_nothing_are_refused_in_one_line(repository: Reposit
 def test_without_published_labels_nothing_of_them_is_planned(repository: Repository) -> None:
     add_own_things(repository, **{"objects.names": [], "labels": ["simulated"]})
     planned = repository.planned("all")
-    assert planned["train_predictor"] == planned["leave_out_objects"] == len(MODELS)
+    assert planned["train_predictor"] == len(MODELS)
     assert planned["tabulate_simulated"] == planned["summarise_scores"] == 1
     for name in ("label_published", "tabulate_published", "compare_distribution"):
         assert planned[name] == 0, name
+    # One object cannot be left out: nothing would be there to learn from.
+    for name in ("leave_out_objects", "tabulate_unseen", "tabulate_objects"):
+        assert planned[name] == 0, name
+    repository.set_param("objects.names", ["mug"])
+    assert repository.planned("all")["leave_out_objects"] == len(MODELS)
 
 
 def test_a_mesh_with_a_measured_map_gets_samples_of_three_tasks(repository: Repository) -> None:

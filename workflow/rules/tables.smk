@@ -102,7 +102,7 @@ DISTRIBUTION = rules.compare_distribution.output if KNOWN["published"].objects e
 rule summarise_scores:
     input:
         known=[TABLES[labels].table for labels in LABELS],
-        unseen=rules.tabulate_unseen.output.table,
+        unseen=rules.tabulate_unseen.output.table if UNSEEN else [],
         grasps=rules.label_grasps.output.grasps,
         distribution=DISTRIBUTION and DISTRIBUTION.table,
     output:

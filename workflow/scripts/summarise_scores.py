@@ -12,17 +12,19 @@ from grasptypes.reports.scores import grasp_scores, model_scores
 from grasptypes.tables import read_table
 
 
-def summarise_scores(known: list[str], unseen: str, models: dict[tuple[str, str], str]) -> None:
+def summarise_scores(
+    known: list[str], unseen: str | None, models: dict[tuple[str, str], str]
+) -> None:
     """Write one file a label source and model.
 
     Args:
         known: tables on known objects, one a label source.
-        unseen: the table on objects that were left out.
+        unseen: the table on objects that were left out; None if there was but one object.
         models: file to write, by label source and model.
     """
     table = pd.concat([pd.read_csv(path) for path in known], ignore_index=True)
     names = sorted({model for _, model in models})
-    scores = model_scores(table, pd.read_csv(unseen), names)
+    scores = model_scores(table, pd.read_csv(unseen) if unseen else table[:0], names)
     for name, path in models.items():
         write_json(path, scores[name])
 
@@ -30,7 +32,7 @@ def summarise_scores(known: list[str], unseen: str, models: dict[tuple[str, str]
 if __name__ == "__main__":
     with job(snakemake.log):
         files = {(Path(p).parent.name, Path(p).stem): p for p in snakemake.output.models}
-        summarise_scores(snakemake.input.known, snakemake.input.unseen, files)
+        summarise_scores(snakemake.input.known, snakemake.input.unseen or None, files)
         dataset = read_table(snakemake.input.grasps, DATASET_SCHEMA)
         compared = snakemake.input.distribution
         distribution = read_table(compared, DISTRIBUTION_SCHEMA) if compared else None
