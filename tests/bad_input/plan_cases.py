@@ -34,6 +34,7 @@ CASES = [
             grey_ply=TEXT_PLY),
     planned("a map that lies elsewhere", {"--contact-map": "far.ply"}, "far.ply: shows 0%",
             far_ply=ply(spread(20, 200), scale=9.0)),
+    planned("the current folder", {"--output": "."}, ".: is the current folder"),
     planned("a folder that is not empty", {"--output": "full"}, "full: is there already"),
     planned("a file for a folder", {"--output": "note.txt/out"}, "cannot be made: note.txt is no"),
 ]  # fmt: skip

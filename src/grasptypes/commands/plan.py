@@ -163,7 +163,9 @@ def _known_type(text: str, allowed: tuple[str, ...]) -> str:
 
 
 def _check_output(folder: Path) -> None:
-    """Refuse a folder with something in it, and a place where none can be made."""
+    """Refuse the current folder, one with something in it, and a place where none can be made."""
+    if folder.resolve() == Path.cwd():
+        raise InputError(folder, "", "is the current folder; name another with --output")
     if folder.exists() and (not folder.is_dir() or any(folder.iterdir())):
         raise InputError(folder, "", "is there already and not empty; name another with --output")
     check_place(folder)
@@ -171,6 +173,7 @@ def _check_output(folder: Path) -> None:
 
 def _move(written: Path, output: Path) -> None:
     """Put the finished folder in its place in one step."""
+    output = output.resolve()
     output.parent.mkdir(parents=True, exist_ok=True)
     staged = output.with_name(f".{output.name}.{os.getpid()}.tmp")
     try:
