@@ -20,12 +20,16 @@ def repository(fresh: Repository, tmp_path: Path) -> Repository:
 
 
 @pytest.fixture(scope="session")
-def complete(tmp_path_factory: pytest.TempPathFactory) -> Repository:
+def complete(
+    request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory
+) -> Repository:
     """The small configuration, computed by Snakemake and recorded by DVC; not to be changed.
 
     Test processes share one: the first builds it, the others wait.
     """
-    shared = tmp_path_factory.getbasetemp().parent
+    shared = tmp_path_factory.getbasetemp()
+    if hasattr(request.config, "workerinput"):  # each process has a folder in the run's own
+        shared = shared.parent
     with FileLock(shared / "complete.lock"):
         repository = Repository(shared / "complete")
         if not (shared / "complete.done").exists():
