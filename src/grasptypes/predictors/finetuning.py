@@ -14,7 +14,7 @@ from grasptypes.predictors.backbone import Backbone, thaw
 from grasptypes.predictors.examples import Examples
 from grasptypes.predictors.predictor import Architecture, Heads, loss
 from grasptypes.predictors.training import Member, Schedule
-from grasptypes.seeds import rng, seed
+from grasptypes.seeds import rng
 
 LOGGER = logging.getLogger("grasptypes")
 
@@ -72,7 +72,6 @@ def fine_tune(
         the network in evaluation mode, and the training loss of each epoch (epochs,).
     """
     names = (*key, member.group, member.seed)
-    torch.manual_seed(seed("dropout", *names))
     tasks = 0 if examples.task_vectors is None else examples.task_vectors.shape[1]
     sizes = Architecture(backbone.kind.features, tasks, schedule.hidden, examples.labels.shape[1])
     network = Network(copy.deepcopy(backbone), Heads(sizes, [names], schedule.dropout)).eval()

@@ -73,7 +73,8 @@ class Heads(nn.Module):
 
     Args:
         architecture: the sizes.
-        keys: one for each head; it names the head's random start (see :mod:`grasptypes.seeds`).
+        keys: one for each head; it names the head's random start and its dropout (see
+            :mod:`grasptypes.seeds`), so that no head depends on those beside it.
         dropout: share of the first two layers' outputs left out in training.
     """
 
@@ -88,6 +89,7 @@ class Heads(nn.Module):
         self.dropout = dropout
         self.weights = nn.ParameterList()
         self.biases = nn.ParameterList()
+        self._dropouts = [torch.Generator().manual_seed(seed("dropout", *key)) for key in keys]
         generators = [torch.Generator().manual_seed(seed("head", *key)) for key in keys]
         for inputs, outputs in architecture.shapes():
             start = [torch.randn(inputs, outputs, generator=g) for g in generators]
@@ -112,8 +114,15 @@ class Heads(nn.Module):
             if layer < LAYERS - 1:
                 x = torch.relu(x)
             if layer < 2:
-                x = nn.functional.dropout(x, self.dropout, self.training)
+                x = self._drop_out(x)
         return x
+
+    def _drop_out(self, x: Tensor) -> Tensor:
+        """In training, set a share of (K, B, n) to zero and enlarge the rest to make up for it."""
+        if not self.training or self.dropout == 0.0:
+            return x
+        draws = [torch.rand(x.shape[1:], generator=g) for g in self._dropouts]
+        return x * (torch.stack(draws) >= self.dropout) / (1.0 - self.dropout)
 
     @torch.no_grad()
     def absorb(self, centre: Tensor, projection: Tensor) -> Heads:

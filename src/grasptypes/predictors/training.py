@@ -12,7 +12,7 @@ from torch import Tensor
 
 from grasptypes.predictors.examples import Examples
 from grasptypes.predictors.predictor import Architecture, Heads, loss
-from grasptypes.seeds import rng, seed
+from grasptypes.seeds import rng
 
 LOGGER = logging.getLogger("grasptypes")
 
@@ -169,7 +169,6 @@ def _descend(
     keys: Sequence[tuple[str | int, ...]],
 ) -> np.ndarray:
     """Train the heads in place; returns the loss curves (epochs, members, 2)."""
-    torch.manual_seed(seed("dropout", *keys[0]))
     orders = [rng("order", *key) for key in keys]
     smallest = min(len(member.train) for member in members)
     batch = min(schedule.batch, smallest)

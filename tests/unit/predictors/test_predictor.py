@@ -25,6 +25,16 @@ def test_a_head_side_by_side_is_the_head_alone():
     assert not torch.allclose(both[0], both[1])
 
 
+def test_dropout_of_a_head_is_its_own():
+    x, t = torch.randn(1, 9, 10), torch.randn(1, 9, 3)
+    both = Heads(SIZES, [("a",), ("b",)], 0.5).train()(x.expand(2, -1, -1), t.expand(2, -1, -1))
+    alone = Heads(SIZES, [("b",)], 0.5).train()
+    first, second = alone(x, t)[0], alone(x, t)[0]
+    torch.testing.assert_close(both[1], first)
+    assert not torch.allclose(first, second)
+    assert not torch.allclose(first, alone.eval()(x, t)[0])
+
+
 def test_absorbing_a_projection_changes_no_output():
     heads = Heads(SIZES, [("a",), ("b",)]).eval()
     x, t = torch.randn(2, 9, 20), torch.randn(2, 9, 3)
