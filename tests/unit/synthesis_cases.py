@@ -5,6 +5,7 @@ from pathlib import Path
 
 import numpy as np
 import trimesh
+from numpy.typing import ArrayLike
 
 from grasptypes.objects.distance_grid import DistanceGrid
 from grasptypes.objects.object_files import write_collision
@@ -38,7 +39,7 @@ def model() -> HandModel:
 
 
 def ball_thing() -> Thing:
-    return Thing(ball_grid(), np.zeros(3), RADIUS_M)
+    return Thing(ball_grid(), np.zeros(3), RADIUS_M, ball().vertices)
 
 
 def palm_at(distance_m: float) -> np.ndarray:
@@ -62,8 +63,9 @@ def ball_person(grip: str = "enclose") -> Person:
     )
 
 
-def ball_body(folder: Path, mass_kg: float = 0.1) -> RigidObject:
+def ball_body(folder: Path, mass_kg: float = 0.1, centre_m: ArrayLike = (0, 0, 0)) -> RigidObject:
     mesh = trimesh.creation.icosphere(subdivisions=2, radius=RADIUS_M)
+    mesh.apply_translation(centre_m)
     write_collision(folder / "collision.obj", [(mesh.vertices, mesh.faces.astype(np.int32))])
     inertia = 0.4 * mass_kg * RADIUS_M**2 * np.eye(3)
-    return RigidObject(folder / "collision.obj", mass_kg, np.zeros(3), inertia)
+    return RigidObject(folder / "collision.obj", mass_kg, np.array(centre_m), inertia)

@@ -98,7 +98,7 @@ class Held(NamedTuple):
 
     dropped: bool
     moved_m: float
-    """How far the object moved in the hand while gravity acted; the worst direction counts."""
+    """How far the object's centre of mass moved in the hand while gravity acted."""
     turned_rad: float
     """How far it turned meanwhile."""
     T_object_hand: Array

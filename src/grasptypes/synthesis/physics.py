@@ -83,7 +83,7 @@ class Physics:
         for _ in range(LOOKS):
             self._run(hand, thing, motors, settings.hold_time_s / LOOKS)
             after = self._pose(thing)
-            moved, turned = _difference(before, after)
+            moved, turned = _difference(before, after, self._body.centre_of_mass_m)
             dropped = moved > settings.drop_distance_m or turned > settings.drop_rotation_rad
             if dropped:
                 break
@@ -270,7 +270,8 @@ def _matrix(position: Sequence[float], orientation: Sequence[float]) -> Array:
     return T
 
 
-def _difference(before: Array, after: Array) -> tuple[float, float]:
-    """Distance (m) between the origins of two poses and angle (rad) between their axes."""
+def _difference(before: Array, after: Array, centre_m: Array) -> tuple[float, float]:
+    """Way (m) of a body's centre of mass from one pose to another, and the body's turn (rad)."""
     turned = Rotation.from_matrix(before[:3, :3].T @ after[:3, :3]).magnitude()
-    return float(np.linalg.norm(after[:3, 3] - before[:3, 3])), float(turned)
+    change = after - before
+    return float(np.linalg.norm(change[:3, :3] @ centre_m + change[:3, 3])), float(turned)

@@ -66,6 +66,19 @@ def test_a_base_that_is_stopped_lets_its_tip_go_on(body) -> None:
     assert lead.max() > 0.012
 
 
+def test_movement_is_that_of_the_object_wherever_its_frame_lies(body, tmp_path) -> None:
+    shift = np.array([1.0, 0.0, 0.0])
+    far_off = ball_body(tmp_path, centre_m=shift)
+    T, angles = GOOD
+    moved = np.eye(4)
+    moved[:3, 3] = shift
+    with physics(URDF, far_off, SETTINGS) as world:
+        held = world.hold(moved @ T, angles)
+    assert not held.dropped
+    # A turn by 0.5 degrees moves the frame's origin by 9 mm.
+    assert held.moved_m < 0.003
+
+
 def test_a_folded_finger_does_not_push_itself_off_the_palm(body) -> None:
     fist = kinematics.couple([0.0, 2.2, 2.2, 0.0])
     with physics(URDF, body, SETTINGS) as world:
