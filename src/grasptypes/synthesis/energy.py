@@ -141,11 +141,13 @@ def _contact_terms(
             for candidate in range(len(model.radii)):
                 x, y, z = moved(T_link_object[n, candidate], points, m)
                 cx, cy, cz = model.centres[candidate]
-                bound = model.radii[candidate] + nearest
+                # The thumb's own term asks for its distance where another link is nearer, too.
+                of_thumb = candidate == _THUMB and m < attracting
+                bound = model.radii[candidate] + (max(nearest, thumb) if of_thumb else nearest)
                 if (x - cx) ** 2 + (y - cy) ** 2 + (z - cz) ** 2 > bound * bound:
                     continue
                 gap = distance_in(model.grids, model.grid_of_link[candidate], x, y, z)
-                if candidate == _THUMB and m < attracting:
+                if of_thumb:
                     thumb = min(thumb, max(gap, 0.0))
                 if gap < nearest:
                     nearest, link = gap, candidate

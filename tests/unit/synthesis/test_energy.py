@@ -60,6 +60,20 @@ def test_thumb_term_vanishes_where_finger_3_touches() -> None:
     assert terms(open_hand, targets(600))["thumb"][0] > terms(touching, targets(600))["thumb"][0]
 
 
+def test_thumb_term_is_finger_3_s_distance_also_where_another_link_is_nearer() -> None:
+    poses = posed([0.1], np.zeros((1, 8)))
+    first, third = (kinematics.LINK_NAMES.index(f"distal_{finger}") for finger in (1, 3))
+    # Beyond the end of finger 3, out of its bounding sphere; then finger 1 is put onto the point.
+    point = poses[0, third, :3, 3] + poses[0, third, :3, 0] * 0.07
+    alone = Targets(point[None], np.array([[0.0, 0.0, 1.0]]), 1)
+    far = terms(poses, alone)["thumb"][0]
+    covered = poses.copy()
+    covered[0, first] = poses[0, third]
+    covered[0, first, :3, 3] = point
+    assert 0.0 < far < SETTINGS.thumb_weight * SETTINGS.range_m
+    assert terms(covered, alone)["thumb"][0] == far
+
+
 def test_penetration_is_the_depth_of_the_deepest_point() -> None:
     poses = posed([0.025], np.zeros((1, 8)))
     assert closeness(model(), ball_grid(), poses).penetration_m[0] == pytest.approx(0.005, abs=5e-4)
