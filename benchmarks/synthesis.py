@@ -15,15 +15,13 @@ from benchmarks.figures import Figure, NotReady, figure, rates, seconds
 
 from grasptypes.contact_maps.contact_map_files import read_contact_map
 from grasptypes.hand import kinematics
-from grasptypes.objects.distance_grid import DistanceGrid
-from grasptypes.objects.object_files import read_properties
 from grasptypes.seeds import rng
 from grasptypes.synthesis.candidates import Hands, Person, draw_candidates
 from grasptypes.synthesis.energy import closeness, draw_targets, energies
-from grasptypes.synthesis.fields import distances, field
+from grasptypes.synthesis.fields import distances
 from grasptypes.synthesis.holding import PhysicsSettings, read_body
 from grasptypes.synthesis.physics import Physics, physics
-from grasptypes.synthesis.search import SearchSettings, Thing, search_session
+from grasptypes.synthesis.search import SearchSettings, read_thing, search_session
 from grasptypes.synthesis.settings import sampled_hand, search_settings
 from grasptypes.synthesis.trials import Hand, Problem, ValiditySettings, people, synthesize
 
@@ -60,11 +58,7 @@ def _load(settings: Mapping[str, Any], params: Mapping[str, Any], folder: Path) 
     name, task = settings["object"], settings["task"]
     contact_map = read_contact_map(f"data/contact_maps/{name}/{task}.npz")
     some = replace(contact_map, sessions=contact_map.sessions[: settings["sessions"]])
-    thing = Thing(
-        field(DistanceGrid.load(folder / "distance_grid.npz")),
-        np.array(read_properties(folder / "properties.json")["centre_of_mass_m"]),
-        float(np.ptp(contact_map.points, axis=0).max() / 2),
-    )
+    thing = read_thing(folder / "distance_grid.npz", folder / "properties.json", contact_map)
     return Case(
         Problem(name, task, thing, some, params["seed"]),
         sampled_hand(params["synthesis"]),

@@ -4,17 +4,12 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
 from grasptypes.contact_maps.contact_map_files import read_contact_map
 from grasptypes.jobs import job
-from grasptypes.objects.distance_grid import DistanceGrid
-from grasptypes.objects.object_files import read_properties
-from grasptypes.synthesis.fields import field
 from grasptypes.synthesis.grasps import ATTEMPT_SCHEMA, GRASP_SCHEMA
 from grasptypes.synthesis.holding import PhysicsSettings, read_body
 from grasptypes.synthesis.physics import physics
-from grasptypes.synthesis.search import Thing
+from grasptypes.synthesis.search import read_thing
 from grasptypes.synthesis.settings import sampled_hand, search_settings
 from grasptypes.synthesis.trials import Problem, ValiditySettings, synthesize
 from grasptypes.tables import write_table
@@ -36,11 +31,7 @@ def write_grasps(
         synthesis, physics_params: those sections of params.yaml.
     """
     contact_map = read_contact_map(inputs["contact_map"])
-    thing = Thing(
-        field(DistanceGrid.load(inputs["distance_grid"])),
-        np.array(read_properties(inputs["properties"])["centre_of_mass_m"]),
-        float(np.ptp(contact_map.points, axis=0).max() / 2),
-    )
+    thing = read_thing(inputs["distance_grid"], inputs["properties"], contact_map)
     problem = Problem(*name, thing, contact_map, seed_number)
     body = read_body(inputs["collision"], inputs["properties"])
     validity = ValiditySettings(**physics_params["validity"])

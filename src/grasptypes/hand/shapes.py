@@ -118,6 +118,21 @@ def depth_in_link(link: int, points: Array) -> Array:
     return np.max(depths, axis=0)
 
 
+def depth_in_hand(points: Array, link_poses: Array) -> float:
+    """How deep the deepest of points (n, 3) lies in a hand, metres, 0 if all are outside.
+
+    Args:
+        link_poses: (9, 4, 4) in the points' frame.
+    """
+    depth = 0.0
+    for link, T in enumerate(link_poses):
+        in_link = (points - T[:3, 3]) @ T[:3, :3]
+        lower, upper = link_meshes()[link].bounds
+        near = in_link[((in_link > lower) & (in_link < upper)).all(axis=1)]
+        depth = max(depth, float(depth_in_link(link, near).max(initial=0.0)))
+    return depth
+
+
 def inside_link(link: int, points: Array) -> NDArray[np.bool_]:
     """Which points (n, 3), metres in the frame of the link with this index, lie inside it."""
     return depth_in_link(link, points) > 0.0

@@ -111,19 +111,8 @@ def fit_hands(configurations: Array, mesh: trimesh.Trimesh, spacing_m: float) ->
     distances = signed_distance(points.reshape(-1, 3), mesh.vertices, mesh.faces)
     distances = distances.reshape(len(points), -1)
     starts = np.searchsorted(surface.link_index, np.arange(len(kinematics.LINK_NAMES)))
-    depths = [_depth_in_hand(np.asarray(mesh.vertices), T) for T in T_object_link]
+    depths = [shapes.depth_in_hand(np.asarray(mesh.vertices), T) for T in T_object_link]
     return Fit(np.minimum.reduceat(distances, starts, axis=1), np.array(depths))
-
-
-def _depth_in_hand(points: Array, T_object_link: Array) -> float:
-    """How deep the deepest of points (n, 3) lies in a hand with link poses (9, 4, 4), metres."""
-    depth = 0.0
-    for link, T in enumerate(T_object_link):
-        in_link = (points - T[:3, 3]) @ T[:3, :3]
-        lower, upper = shapes.link_meshes()[link].bounds
-        near = in_link[((in_link > lower) & (in_link < upper)).all(axis=1)]
-        depth = max(depth, float(shapes.depth_in_link(link, near).max(initial=0.0)))
-    return depth
 
 
 def replay_object(

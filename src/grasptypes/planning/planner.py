@@ -18,12 +18,11 @@ from grasptypes.labels.contacts import ContactSettings
 from grasptypes.labels.dataset import label_grasps
 from grasptypes.labels.grasp_type import Thresholds
 from grasptypes.objects.distance_grid import DistanceGrid
-from grasptypes.objects.object_files import COLLISION, DISTANCE_GRID, PROPERTIES, read_properties
+from grasptypes.objects.object_files import COLLISION, DISTANCE_GRID, PROPERTIES
 from grasptypes.seeds import seed
-from grasptypes.synthesis.fields import field
 from grasptypes.synthesis.holding import PhysicsSettings, read_body
 from grasptypes.synthesis.physics import physics
-from grasptypes.synthesis.search import Thing
+from grasptypes.synthesis.search import read_thing
 from grasptypes.synthesis.settings import sampled_hand, search_settings
 from grasptypes.synthesis.trials import Problem, ValiditySettings, synthesize
 
@@ -124,12 +123,7 @@ def _each(work: Callable[[int], pd.DataFrame], count: int, jobs: int) -> Iterato
 def _search(workshop: Workshop, contact_map: ContactMap, index: int) -> pd.DataFrame:
     """Attempts of one session, whatever sessions there are beside it, with its grip and tries."""
     folder, params = workshop.folder, workshop.params
-    properties = read_properties(folder / PROPERTIES)
-    thing = Thing(
-        field(DistanceGrid.load(folder / DISTANCE_GRID)),
-        np.array(properties["centre_of_mass_m"]),
-        float(np.ptp(properties["bounds_m"], axis=0).max() / 2),
-    )
+    thing = read_thing(folder / DISTANCE_GRID, folder / PROPERTIES, contact_map)
     session_seed = seed("plan", *workshop.name, index + 1, workshop.seed)
     problem = Problem(*workshop.name, thing, _one(contact_map, index), session_seed)
     body = read_body(folder / COLLISION, folder / PROPERTIES)

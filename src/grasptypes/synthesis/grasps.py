@@ -37,7 +37,7 @@ _TRIAL_COLUMNS = {
         pa.Check(lambda column: _lengths(column, len(kinematics.JOINT_NAMES))),
         description="in the order of kinematics.JOINT_NAMES",
     ),
-    "penetration_m": pa.Column(float, pa.Check.ge(0), description="hand in object"),
+    "penetration_m": pa.Column(float, pa.Check.ge(0), description="hand and object in each other"),
     "moved_m": pa.Column(float, pa.Check.ge(0), description="object in the hand, under gravity"),
     "turned_rad": pa.Column(float, pa.Check.ge(0), description="object in the hand"),
     "grip_deviation": pa.Column(

@@ -3,13 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
+from grasptypes.contact_maps.contact_map import ContactMap
 from grasptypes.hand import kinematics
+from grasptypes.objects.distance_grid import DistanceGrid
+from grasptypes.objects.object_files import read_properties
 from grasptypes.synthesis.candidates import CandidateSettings, Hands, Person, draw_candidates
 from grasptypes.synthesis.closing import ClosingSettings, close_fingers
 from grasptypes.synthesis.energy import (
@@ -21,7 +25,7 @@ from grasptypes.synthesis.energy import (
     energies,
 )
 from grasptypes.synthesis.equilibrium import EquilibriumSettings, imbalance
-from grasptypes.synthesis.fields import Field
+from grasptypes.synthesis.fields import Field, field
 from grasptypes.synthesis.grip_shape import ShapeRanges, ShapeSettings, deviation
 from grasptypes.synthesis.hand_model import FIRST_DISTAL, FIRST_PROXIMAL, HandModel
 
@@ -82,13 +86,26 @@ class SearchSettings(NamedTuple):
 
 
 class Thing(NamedTuple):
-    """The object as a search sees it."""
+    """The object as a search and the look at its grasps see it."""
 
     grid: Field
     centre_of_mass_m: Array
     """(3,)."""
     radius_m: float
     """Half of its largest extent."""
+    surface_m: Array
+    """(n, 3) points on its surface."""
+
+
+def read_thing(distance_grid: str | Path, properties: str | Path, contact_map: ContactMap) -> Thing:
+    """The object from its files (see `object_files`), with the points of one of its maps."""
+    surface = contact_map.points.astype(np.float64)
+    return Thing(
+        field(DistanceGrid.load(distance_grid)),
+        np.array(read_properties(properties)["centre_of_mass_m"]),
+        float(np.ptp(surface, axis=0).max() / 2),
+        surface,
+    )
 
 
 class Ranked(NamedTuple):
@@ -115,13 +132,16 @@ def search_session(
     """The grasps of one session to be tried, at least one and at most `tries`.
 
     Grasps that overlap or touch with too few fingers have infinite energy and are dropped. Only
-    where a whole batch (all candidates, or all variations of a round) holds no other grasp do they
-    count, so that every session has its grasp.
+    where all candidates do are they tried, as they are, so that the session's failure has its
+    reason.
     """
     targets = draw_targets(person.points_m, person.normals, person.contact, settings.energy, draw)
     shape = settings.shapes[person.grip]
     hands = draw_candidates(model, thing.grid, person, settings.candidates, settings.closing, draw)
     found = _evaluate(model, thing, hands, targets, shape, settings)
+    if not np.isfinite(found.energy).any():
+        found = _evaluate(model, thing, hands, targets, shape, settings, every=True)
+        return found.take(_spaced(found, settings.ranking.tries, settings.ranking))
     best = found.take(_spaced(found, settings.refinement.parents, settings.ranking))
     best = refine(model, thing, best, targets, shape, settings, draw)
     return best.take(_spaced(best, settings.ranking.tries, settings.ranking))
@@ -154,17 +174,16 @@ def refine(
 
 def _evaluate(
     model: HandModel, thing: Thing, hands: Hands, targets: Targets, shape: ShapeRanges,
-    settings: SearchSettings,
+    settings: SearchSettings, every: bool = False,
 ) -> Ranked:  # fmt: skip
-    """Energies of hands (n), infinite for those that must not be ranked; see `search_session`."""
+    """Energies of hands (n), unless `every` counts infinite for those that must not be ranked."""
     poses = hands.T_object_hand[:, None] @ kinematics.link_poses(hands.joint_angles_rad)
     close = closeness(model, thing.grid, poses)
     touching = close.gaps_m <= settings.ranking.contact_m
     fingers = touching[:, FIRST_PROXIMAL:FIRST_DISTAL] | touching[:, FIRST_DISTAL:]
     sound = fingers.sum(axis=1) >= settings.ranking.min_fingers
     sound &= np.maximum(close.penetration_m, close.self_depth_m) <= settings.ranking.max_depth_m
-    if not sound.any():
-        sound[:] = True
+    sound |= every
     terms = np.full((len(sound), len(ALL_TERMS)), np.inf)
     poses = poses[sound]
     close = type(close)(close.gaps_m[sound], close.self_depth_m[sound])

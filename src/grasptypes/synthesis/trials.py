@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from grasptypes.contact_maps.contact_map import ContactMap
 from grasptypes.hand import configuration, kinematics
+from grasptypes.hand.shapes import depth_in_hand
 from grasptypes.seeds import rng, seed
 from grasptypes.synthesis.candidates import Person
 from grasptypes.synthesis.energy import closeness
@@ -33,11 +34,13 @@ class ValiditySettings(NamedTuple):
     """What a valid grasp must keep to, beside holding the object."""
 
     max_depth_m: float
-    """Depth of the hand in the object, or of a link in another, beyond which it is invalid."""
+    """Depth of hand and object, or of two links, in each other, beyond which it is invalid."""
     strict_depth_m: float
     """A stricter depth that is reported too."""
     min_links: int
     """Links that must touch."""
+    touch_m: float
+    """Distance up to which a planned finger touches."""
     limit_tolerance_rad: float
     """How far a joint may be beyond its limit."""
 
@@ -141,12 +144,14 @@ def try_grasp(
     held = world.hold(T_object_hand, joint_angles_rad)
     if held.dropped:
         return planned._replace(reason="dropped", moved_m=held.moved_m, turned_rad=held.turned_rad)
-    reason, depth = _flaw(held.T_object_hand, held.joint_angles_rad, thing, model, validity)
-    if not reason and len({contact.link for contact in held.contacts}) < validity.min_links:
-        reason = "no_contact"
     angles = held.joint_angles_rad.copy()
     angles[:2] = angles[:2].mean()  # one motor turns both spreads; the test holds each by itself
     angles = np.clip(angles, *kinematics.JOINT_LIMITS_RAD.T)
+    reason, depth = _flaw(held.T_object_hand, angles, thing, model, validity)
+    if _beyond_limits(held.joint_angles_rad, validity):
+        reason = "joint_limit"
+    elif not reason and len({contact.link for contact in held.contacts}) < validity.min_links:
+        reason = "no_contact"
     return Trial(
         reason, held.T_object_hand, angles, depth, held.moved_m, held.turned_rad, held.contacts
     )
@@ -178,20 +183,28 @@ def _flaw(
     T_object_hand: Array, angles: Array, thing: Thing, model: HandModel,
     validity: ValiditySettings,
 ) -> tuple[str, float]:  # fmt: skip
-    """What is wrong with a pose by geometry alone, and the hand's depth in the object."""
+    """What is wrong with a pose by geometry alone, and how deep hand and object lie in each other.
+
+    Points of the hand are looked for in the object and points of the object in the hand: a thin
+    wall can cut into a link between the points of either.
+    """
     poses = T_object_hand @ kinematics.link_poses(angles)
     close = closeness(model, thing.grid, poses[None])
-    depth = float(close.penetration_m[0])
-    limits = kinematics.JOINT_LIMITS_RAD
-    if kinematics.beyond_limits(angles, limits, validity.limit_tolerance_rad).any():
+    depth = max(float(close.penetration_m[0]), depth_in_hand(thing.surface_m, poses))
+    if _beyond_limits(angles, validity):
         return "joint_limit", depth
     if close.self_depth_m[0] > validity.max_depth_m:
         return "self_collision", depth
     if depth > validity.max_depth_m:
         return "penetrates", depth
     fingers = close.gaps_m[0, FIRST_PROXIMAL:FIRST_DISTAL], close.gaps_m[0, FIRST_DISTAL:]
-    touching = np.minimum(*fingers) <= validity.max_depth_m
+    touching = np.minimum(*fingers) <= validity.touch_m
     return ("" if touching.any() else "no_contact"), depth
+
+
+def _beyond_limits(angles: Array, validity: ValiditySettings) -> bool:
+    limits = kinematics.JOINT_LIMITS_RAD
+    return bool(kinematics.beyond_limits(angles, limits, validity.limit_tolerance_rad).any())
 
 
 def _row(

@@ -115,6 +115,21 @@ def test_depth_is_that_of_the_nearest_face() -> None:
     np.testing.assert_allclose(depth, [0.010, -0.001], atol=3e-4)
 
 
+def test_depth_in_the_hand_is_that_in_the_link_that_covers_a_point_most() -> None:
+    poses = kinematics.link_poses(np.zeros(8))
+    finger = LINK["distal_1"]
+    in_finger = poses[finger, :3, 3].copy()
+    outside = np.array([[0.0, 0.0, 0.5]])
+    assert shapes.depth_in_hand(outside, poses) == 0.0
+    deepest = shapes.depth_in_hand(np.vstack([outside, in_finger]), poses)
+    assert deepest == pytest.approx(0.010, abs=3e-4)
+    moved = np.array([0.0, 0.0, 1.0])
+    poses[:, :3, 3] += moved
+    assert shapes.depth_in_hand(np.vstack([outside, in_finger]) + moved, poses) == pytest.approx(
+        deepest
+    )
+
+
 def test_prism_is_chamfered_and_keeps_its_outline() -> None:
     square = outline([[0, 0], [0.02, 0], [0.02, 0.01], [0, 0.01], [0.01, 0.005]])
     assert len(square) == 4

@@ -4,7 +4,9 @@ import numpy as np
 import pytest
 from synthesis_cases import PARAMS, ball_person, ball_thing, model
 
+from grasptypes.hand import kinematics
 from grasptypes.seeds import rng
+from grasptypes.synthesis.energy import closeness
 from grasptypes.synthesis.search import search_session
 from grasptypes.synthesis.settings import search_settings
 
@@ -56,6 +58,19 @@ def test_refinement_lowers_the_energy(ranked) -> None:
     assert ranked.energy[0] < search(unrefined).energy[0]
 
 
-def test_a_hopeless_session_still_has_a_grasp() -> None:
+def test_a_hopeless_session_still_has_grasps_to_give_its_reason() -> None:
     strict = SMALL._replace(ranking=SMALL.ranking._replace(min_fingers=4))
-    assert len(search(strict).energy) >= 1
+    found = search(strict)
+    assert 1 <= len(found.energy) <= SMALL.ranking.tries
+    assert np.isfinite(found.terms).all()
+    assert np.all(np.diff(found.energy) >= 0)
+
+
+def test_refinement_never_takes_what_must_not_be_ranked() -> None:
+    # Variations as wide as the ball: most of them overlap it or touch with too few fingers.
+    wild = SMALL.refinement._replace(position_sd_m=0.06, rotation_sd_rad=1.0, shrink=1.0)
+    found = search(SMALL._replace(refinement=wild))
+    poses = found.hands.T_object_hand[:, None] @ kinematics.link_poses(found.hands.joint_angles_rad)
+    close = closeness(model(), ball_thing().grid, poses)
+    assert close.penetration_m.max() <= SMALL.ranking.max_depth_m
+    assert close.self_depth_m.max() <= SMALL.ranking.max_depth_m

@@ -10,7 +10,9 @@ from synthesis_cases import PARAMS, ball_grid, ball_person, ball_thing, model, p
 
 from grasptypes.contact_maps.contact_map import ContactMap
 from grasptypes.hand import configuration, kinematics
+from grasptypes.hand.shapes import depth_in_hand
 from grasptypes.synthesis.closing import ClosingSettings, close_fingers
+from grasptypes.synthesis.energy import closeness
 from grasptypes.synthesis.grasps import ATTEMPT_SCHEMA, GRASP_SCHEMA
 from grasptypes.synthesis.holding import Contact, Held
 from grasptypes.synthesis.settings import search_settings
@@ -61,6 +63,35 @@ def test_reasons() -> None:
     assert tried(World([False])).reason == "dropped"
     assert tried(World([True], links=(6,))).reason == "no_contact"
     assert tried(World([True], sink_m=0.01)).reason == "penetrates"
+
+
+def test_a_thin_wall_between_the_hand_s_points_penetrates() -> None:
+    wall = T[0, :3, 3] + [[0.0, 0.0, 0.004]]
+    thing = ball_thing()
+    cut = thing._replace(surface_m=np.vstack([thing.surface_m, wall]))
+    trial = try_grasp(T[0], ANGLES, cut, model(), World([True]), VALIDITY)
+    assert trial.reason == "penetrates"
+    assert trial.penetration_m == pytest.approx(0.004, abs=0.001)
+
+
+def test_what_is_stored_is_what_was_looked_at() -> None:
+    @dataclass
+    class Apart(World):
+        def hold(self, T_object_hand, joint_angles_rad):
+            held = super().hold(T_object_hand, joint_angles_rad)
+            angles = joint_angles_rad.copy()
+            angles[:2] = 0.2, 0.0
+            angles[2] = -0.005
+            return held._replace(joint_angles_rad=angles)
+
+    trial = tried(Apart([True]))
+    assert trial.joint_angles_rad[0] == trial.joint_angles_rad[1] == pytest.approx(0.1)
+    assert trial.joint_angles_rad[2] == 0.0
+    poses = trial.T_object_hand @ kinematics.link_poses(trial.joint_angles_rad)
+    of_hand = closeness(model(), ball_grid(), poses[None]).penetration_m[0]
+    of_ball = depth_in_hand(ball_thing().surface_m, poses)
+    assert trial.penetration_m == max(of_hand, of_ball)
+    assert trial.reason == ""
 
 
 def contact_map(sessions=3) -> ContactMap:
