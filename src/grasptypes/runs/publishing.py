@@ -17,6 +17,7 @@ from typing import Any
 import numpy as np
 
 import grasptypes.errors
+from grasptypes.downloads import file_sha256
 from grasptypes.errors import InputError
 from grasptypes.params import read_yaml
 from grasptypes.predictors.features import read_pictures
@@ -25,7 +26,7 @@ from grasptypes.predictors.metrics import METRICS
 from grasptypes.predictors.predictor_files import read_card
 from grasptypes.predictors.weights import Weights
 from grasptypes.runs.due import note_done
-from grasptypes.runs.run_records import Finished, file_digest, run_record, serving_requirements
+from grasptypes.runs.run_records import Finished, run_record, serving_requirements
 from grasptypes.runs.tracking import LoggedModel, Store, publish
 from grasptypes.versions.job_records import recorded_params
 
@@ -83,8 +84,8 @@ def version_tags(root: Path) -> dict[str, str]:
 def checksum(path: Path) -> str:
     """SHA-256 of a file, or of what ``sha256sum *`` prints in a folder."""
     if path.is_file():
-        return file_digest(path)
-    lines = [f"{file_digest(file)}  {file.name}\n" for file in sorted(path.iterdir())]
+        return file_sha256(path)
+    lines = [f"{file_sha256(file)}  {file.name}\n" for file in sorted(path.iterdir())]
     return hashlib.sha256("".join(lines).encode()).hexdigest()
 
 
@@ -107,7 +108,7 @@ def publish_runs(
     else:
         example = read_pictures(min((root / "data/renders").glob("*.zip")))[:1]
         models = {
-            record.key: (file_digest(files.tensors), _servable(files, weights, example))
+            record.key: (file_sha256(files.tensors), _servable(files, weights, example))
             for record, files in pairs
         }
     return publish(store, [record for record, _ in pairs], models, METRICS)

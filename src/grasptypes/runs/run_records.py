@@ -129,11 +129,6 @@ def flatten(nested: Mapping[str, Any], prefix: str = "") -> dict[str, str]:
     return flat
 
 
-def file_digest(path: str | Path) -> str:
-    """SHA-256 of a file, as sha256sum prints it."""
-    return hashlib.sha256(Path(path).read_bytes()).hexdigest()
-
-
 def _child(
     parent: str,
     row: Mapping[str, Any],
