@@ -16,14 +16,14 @@ sys.path.insert(0, str(Path(workflow.basedir) / "src"))
 from grasptypes.errors import InputError
 from grasptypes.params import read_yaml, validate_params
 from grasptypes.runs.due import note_due, publish_what_is_due, publishing_is_due
-from grasptypes.versions.guard import release_dead_lock, remove_leftovers, use_this_checkout
+from grasptypes.versions.guard import FolderLock, remove_leftovers, use_this_checkout
 from grasptypes.versions.job_records import distrust_unrecorded
 
 use_this_checkout(workflow.basedir)
 try:
     if workflow.is_main_process:
-        running_lock = release_dead_lock()
-        if running_lock:
+        folder_lock = FolderLock()
+        if folder_lock.take():
             remove_leftovers(".")
             was_due = publishing_is_due(Path.cwd())
         distrust_unrecorded(PersistenceBase)
@@ -78,8 +78,11 @@ localrules:
     plot_losses,
 
 
+# A dry run may read along while another run computes; jobs start only for who holds the folder.
 # MLflow shows what the files hold: results never depend on its store being there.
 onstart:
+    if not folder_lock.take():
+        sys.exit(1)
     note_due(Path.cwd())
 
 
@@ -89,7 +92,7 @@ onsuccess:
 
 
 # Without a job to do there is no `onsuccess`, yet an earlier run may have been killed before it.
-if workflow.is_main_process and running_lock and was_due:
+if workflow.is_main_process and folder_lock.file and was_due:
     atexit.register(lambda: workflow.dryrun or publish_what_is_due(Path.cwd()))
 
 

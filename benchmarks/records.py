@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import base64
 import json
 import os
 from collections.abc import Collection, Iterator, Mapping
@@ -11,6 +10,8 @@ from typing import Any, NamedTuple
 
 import pandas as pd
 from benchmarks.figures import Figure, figure
+
+from grasptypes.versions.job_records import RECORDS, recorded_result
 
 MAIN_JOB = "reports/table1.csv"
 BEFORE_LABELS = {"prepare_object", "map_contacts", "synthesize_grasps"}
@@ -29,7 +30,7 @@ class Record(NamedTuple):
 
 def measure(settings: Mapping[str, Any], params: Mapping[str, Any]) -> Iterator[Figure]:
     """All rules beside the whole, the main job beside its aims, memory beside the machine's."""
-    records = read_records(Path(".snakemake/metadata"))
+    records = read_records(Path(RECORDS))
     whole_s = busy_s(records.values())
     for rule in sorted({record.rule for record in records.values()}):
         time_s = busy_s([record for record in records.values() if record.rule == rule])
@@ -47,11 +48,11 @@ def measure(settings: Mapping[str, Any], params: Mapping[str, Any]) -> Iterator[
 
 
 def read_records(folder: Path) -> dict[str, Record]:
-    """Snakemake's records by the file they are about; their names are that file's in base64."""
+    """Snakemake's records by the file they are about."""
     records = {}
     for path in folder.rglob("*"):
         if path.is_file():
-            name = base64.b64decode(str(path.relative_to(folder))).decode()
+            name = recorded_result(path.relative_to(folder))
             found = json.loads(path.read_text())
             names = "rule", "job_hash", "input", "starttime", "endtime"
             records[name] = Record(*(found[name] for name in names))

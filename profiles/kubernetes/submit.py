@@ -22,6 +22,8 @@ def manifest(options: argparse.Namespace) -> dict[str, Any]:
     }
     pod = {
         "restartPolicy": "Never",
+        # Counts from when a node takes the pod; the Job's own would count its wait for one.
+        "activeDeadlineSeconds": 60 * options.minutes,
         # Files on the volume belong to who runs Snakemake.
         "securityContext": {"runAsUser": os.getuid(), "runAsGroup": os.getgid()},
         "containers": [container],
@@ -33,7 +35,6 @@ def manifest(options: argparse.Namespace) -> dict[str, Any]:
         "metadata": {"generateName": "grasptypes-", "labels": {"app": "grasptypes"}},
         "spec": {
             "backoffLimit": 0,
-            "activeDeadlineSeconds": 60 * options.minutes,
             "ttlSecondsAfterFinished": 86400,
             "template": {"spec": pod},
         },

@@ -13,6 +13,8 @@ import urllib.request
 from pathlib import Path
 from typing import IO
 
+from grasptypes.files import TEMPORARY
+
 _FAILURES = (OSError, http.client.HTTPException, ValueError)
 
 
@@ -33,7 +35,7 @@ def download(url: str, path: str | Path, sha256: str, timeout_s: float) -> None:
     path = Path(path)
     with _opened(url, timeout_s) as response:
         path.parent.mkdir(parents=True, exist_ok=True)
-        handle, part = tempfile.mkstemp(dir=path.parent, suffix=".part")
+        handle, part = tempfile.mkstemp(dir=path.parent, prefix=".", suffix=TEMPORARY)
         try:
             with open(handle, "wb") as file:
                 _copy(url, response, file)

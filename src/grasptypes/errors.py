@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 
@@ -26,3 +28,23 @@ class InputError(ValueError):
 
     def __reduce__(self) -> tuple[type[InputError], tuple[str, str, str]]:
         return InputError, (self.file, self.key, self.message)
+
+
+@contextmanager
+def parsing(file: str | Path, refusal: str) -> Iterator[None]:
+    """Have a library read a user's file; whatever it raises over it becomes an :class:`InputError`.
+
+    Damaged files lead parsers to errors that nobody lists, down to an UnboundLocalError. Memory
+    that is too short is not the file's fault.
+
+    Args:
+        file: what is read.
+        refusal: what to say of a file that cannot be read; the parser's own words follow.
+    """
+    try:
+        yield
+    except (InputError, MemoryError):
+        raise
+    except Exception as error:
+        reason = str(error).split("\n")[0].split(". ")[0] or type(error).__name__
+        raise InputError(file, "", f"{refusal}: {reason}") from error

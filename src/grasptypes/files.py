@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from grasptypes.errors import InputError
+from grasptypes.errors import parsing
 
 # The earliest time a ZIP archive can hold: archives must not tell when they were written.
 ZIP_EPOCH = (1980, 1, 1, 0, 0, 0)
@@ -72,8 +72,8 @@ def read_npz(path: str | Path) -> dict[str, np.ndarray]:
     Raises:
         InputError: not such a file, or a damaged one.
     """
-    try:
-        with np.load(path, allow_pickle=False) as archive:
-            return {name: archive[name] for name in archive.files}
-    except (OSError, ValueError, EOFError, KeyError, AttributeError, zipfile.BadZipFile) as error:
-        raise InputError(path, "", f"cannot be read as arrays (.npz): {error}") from error
+    with (
+        parsing(path, "cannot be read as arrays (.npz)"),
+        np.load(path, allow_pickle=False) as archive,
+    ):
+        return {name: archive[name] for name in archive.files}

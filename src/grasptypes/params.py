@@ -18,6 +18,15 @@ DEEPEST = 100
 _SafeLoader: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 
 
+# JSON Schema takes 100.0 for an integer; seeds and array shapes do not.
+_Validator = jsonschema.validators.extend(
+    jsonschema.Draft202012Validator,
+    type_checker=jsonschema.Draft202012Validator.TYPE_CHECKER.redefine(
+        "integer", lambda _, value: isinstance(value, int) and not isinstance(value, bool)
+    ),
+)
+
+
 class _StrictLoader(_SafeLoader):
     """A safe loader that takes text keys only, each once: YAML would let the last one win."""
 
@@ -25,7 +34,9 @@ class _StrictLoader(_SafeLoader):
         seen = set()
         for key_node, _ in node.value:
             problem, kind = "", key_node.tag.split(":")[-1]
-            if kind not in ("str", "merge"):
+            if kind == "merge":
+                problem = "'<<' is not taken: write the keys out"
+            elif kind != "str":
                 problem = f"a key must be text (quote it), not {kind}"
             elif key_node.value in seen:
                 problem = f"key '{key_node.value}' is there twice"
@@ -77,8 +88,7 @@ def validate_params(
     Raises:
         InputError: naming the first wrong key and what is allowed there.
     """
-    validator = jsonschema.Draft202012Validator(schema)
-    error = jsonschema.exceptions.best_match(validator.iter_errors(params))
+    error = jsonschema.exceptions.best_match(_Validator(schema).iter_errors(params))
     if error is not None:
         key = ".".join(str(part) for part in error.absolute_path)
         raise InputError(path, key, _explain(error))

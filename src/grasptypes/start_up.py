@@ -9,6 +9,7 @@ from typing import Any
 from grasptypes.contact_maps.affinities import Hold, read_affinities
 from grasptypes.labels.published_source import check_published
 from grasptypes.objects.own_objects import check_every_hold, check_own_objects
+from grasptypes.objects.reference_meshes import reference_meshes
 from grasptypes.objects.variants import check_variation
 from grasptypes.params import validate_params
 from grasptypes.predictors.own_tasks import check_tasks
@@ -46,4 +47,5 @@ def check_start(
     holds = read_affinities(table, [*catalogue, *objects["own"]], tasks)
     check_every_hold(objects, tasks, holds, table)
     check_published(environment)
+    reference_meshes(environment)
     return holds

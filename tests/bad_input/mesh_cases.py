@@ -15,6 +15,8 @@ VERTICES, FACES = BOX.vertices.tolist(), (BOX.faces + 1).tolist()
 TEXT_STL = BOX.export(file_type="stl_ascii").encode()
 TEXT_PLY = BOX.export(file_type="ply", encoding="ascii")
 STL, PLY, GLB = (BOX.export(file_type=kind) for kind in ("stl", "ply", "glb"))
+# The first of two chunks alone: its JSON names accessors, whose data are not there.
+GLB_WITHOUT_DATA = GLB[: 20 + int.from_bytes(GLB[12:16], "little")]
 
 
 def mesh(what: str, name: str, content: Content, *names: str, unit: str = "m") -> Case:
@@ -83,6 +85,8 @@ CASES = [
     mesh("a truncated PLY", "cup.ply", PLY[:-50], "cannot be read as a mesh"),
     mesh("a truncated GLB", "cup.glb", GLB[:-200], "cannot be read as a mesh"),
     mesh("noise named .glb", "cup.glb", np.random.default_rng(0).bytes(500), "cannot be read"),
+    mesh("a GLB without its data", "cup.glb", GLB_WITHOUT_DATA, "cannot be read as a mesh"),
+    mesh("a misspelt PLY", "cup.ply", PLY.replace(b"list", b"lost"), "cannot be read as a mesh"),
     mesh(
         "a PLY that promises billions",
         "cup.ply",

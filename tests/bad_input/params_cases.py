@@ -40,6 +40,7 @@ CASES = [
     text("not text", b"\xff\xfe\x00\x01", "UTF-8"),
     text("nested too deeply", "[" * 5000, "nested too deeply"),
     text("a key that is there twice", "seed: 1\nseed: 2\n", "line 2", "'seed' is there twice"),
+    text("a merge of mappings", "a: &a {b: 1}\nc: {<<: *a}\n", "line 2", "'<<' is not taken"),
     text("a key that is no text", "1: 2\n", "line 1", "a key must be text"),
     text("a key that is a list", "? [a, b]\n: 1\n", "line 1", "a key must be text"),
     text(
@@ -53,6 +54,8 @@ CASES = [
     change("an unknown key", {"tasks": {"use": {"color_shift": 1}}}, "tasks.use", "colour_shift"),
     text("a missing section", "seed: 1\n", "'tasks' is a required property"),
     change("a wrong type", {"seed": "one"}, "seed", "whole number"),
+    change("a seed with a decimal point", {"seed": 0.0}, "seed", "whole number"),
+    change("a count with a decimal point", {"renders": {"views": 100.0}}, "renders.views", "100.0"),
     change("a yes for a number", {"seed": True}, "seed", "whole number"),
     change("below the range", {"objects": {"scale": 0}}, "objects.scale", "0"),
     change("above the range", {"folds": {"count": 1000}}, "folds.count", "maximum of 100"),
@@ -62,6 +65,8 @@ CASES = [
     change("an object named twice", {"objects": {"names": ["mug", "mug"]}}, "objects.names"),
     change("no object at all", {"objects": {"names": []}}, "objects.names", "name an object"),
     change("a name for the shell", {"tasks": {"a; ls": {"colour_shift": 1}}}, "tasks", "a; ls"),
+    change("a task called missing", {"tasks": {"nan": {"colour_shift": 1}}}, "tasks", "'nan'"),
+    change("an object called missing", {"objects": {"own": {"null": BOX}}}, "own", "'null'"),
     change("an unknown unit", {"objects": {"own": {"box": BOX | {"unit": "ell"}}}}, "own.box.unit"),
     change(
         "mass and density", {"objects": {"own": {"box": BOX | {"density_kg_m3": 1}}}}, "own.box"
@@ -69,6 +74,7 @@ CASES = [
     change("a mesh that is not there", {"objects": {"own": {"box": BOX}}}, "box.stl"),
     change("an own name of the catalogue", {"objects": {"own": {"mug": BOX}}}, "objects.own.mug"),
     environment("a table that is not there", "GRASPTYPES_PUBLISHED_CSV", "no.csv", "'no.csv'"),
+    environment("scans that are not there", "GRASPTYPES_REFERENCE_MESHES", "no", "'no'"),
     environment(
         "a URL without checksum",
         "GRASPTYPES_PUBLISHED_CSV",

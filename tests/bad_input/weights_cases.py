@@ -62,6 +62,8 @@ CASES = [
     weights("a pickle with code, as torch writes it", saved(Code), "not a file of tensors"),
     weights("a list", saved(lambda: [torch.zeros(1)]), "not a state dict"),
     weights("numbers instead of tensors", saved(lambda: {"a": 1}), "not a state dict"),
+    weights("numbers for names", saved(lambda: {1: torch.zeros(1)}), "not a state dict"),
+    weights("sparse tensors", saved(lambda: {"a": torch.eye(3).to_sparse()}), "not a state dict"),
     weights("another network", saved(lambda: {"a": torch.zeros(3)}), "not weights of mobilenet_v2"),
     weights(
         "wrong shapes",

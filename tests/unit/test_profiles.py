@@ -3,6 +3,7 @@
 import re
 from pathlib import Path
 
+import pandas as pd
 import yaml
 
 ROOT = Path(__file__).parents[2]
@@ -38,3 +39,14 @@ def test_every_rule_runs_beside_snakemake_or_states_what_it_needs() -> None:
 def test_groups_hold_rules_that_are_submitted() -> None:
     assert DEFAULT["groups"].keys() <= DEFAULT["set-resources"].keys()
     assert set(DEFAULT["groups"].values()) == DEFAULT["group-components"].keys()
+
+
+def test_jobs_are_promised_half_more_than_the_most_they_took() -> None:
+    """On a cluster the promise is a limit."""
+    measured = pd.read_csv(ROOT / "reports/benchmarks.csv", index_col="name")["value"]
+    peaks_mib = measured.filter(like="peak memory of ")
+    promised_mb = {rule: needs["mem_mb"] for rule, needs in DEFAULT["set-resources"].items()}
+    known = {name.removeprefix("peak memory of "): value for name, value in peaks_mib.items()}
+    assert {"synthesize_grasps", "compare_plans"} <= known.keys()
+    tight = {rule for rule in known if promised_mb.get(rule, 1e9) < 1.5 * 1.05 * known[rule]}
+    assert not tight

@@ -57,7 +57,8 @@ def test_the_jobs_of_an_object_run_in_one_pod_with_what_they_need(
     needs = {"cpu": "1", "memory": "600M"}  # prepare_object, then map_contacts
     assert container["resources"] == {"requests": needs, "limits": needs}
     assert {"name": "GRASPTYPES_PUBLISHED_CSV", "value": ""} in container["env"]
-    assert job["spec"]["activeDeadlineSeconds"] == 60 * (2 + 1)
+    assert pod["activeDeadlineSeconds"] == 60 * (2 + 1)
+    assert "activeDeadlineSeconds" not in job["spec"]
 
 
 def test_the_code_is_copied_to_a_volume_whose_root_stays_as_it_is(tmp_path: Path) -> None:

@@ -1,5 +1,6 @@
 """What Snakemake says before it runs anything."""
 
+import os
 import shutil
 import subprocess
 import sys
@@ -7,6 +8,8 @@ from pathlib import Path
 
 import pytest
 from repository import ROOT, Repository
+
+from grasptypes.versions.guard import FolderLock
 
 
 def test_the_main_job_is_complete_and_small(fresh: Repository) -> None:
@@ -61,6 +64,25 @@ def test_a_cache_of_links_is_refused(repository: Repository) -> None:
     output = repository.run("snakemake", "-n", check=False)
     assert "error: " in output
     assert "dvc config cache.type reflink,copy" in output
+
+
+def test_jobs_start_only_for_who_holds_the_folder(repository: Repository) -> None:
+    """Whoever else reads the workflow meanwhile leaves alone what a run has at work."""
+    target = "data/objects/mug/visual.glb"
+    mine = [".snakemake/locks/0.output.lock", "data/objects/mug/.live.1.tmp"]
+    for path in (repository.path / name for name in mine):
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text("data/objects/banana/visual.glb")
+    lock = FolderLock(repository.path / ".snakemake")
+    assert lock.take()
+    message = f"another run holds this folder: process {os.getpid()}"
+    assert message in repository.run("snakemake", "-n", target)
+    assert message in repository.run("snakemake", "-j1", target, check=False)
+    assert not (repository.path / target).exists()
+    del lock
+    assert all((repository.path / name).exists() for name in mine)
+    repository.run("snakemake", "-n", target)
+    assert not any((repository.path / name).exists() for name in mine)
 
 
 def test_scans_are_inputs_of_the_table_that_is_measured_with_them(

@@ -2,6 +2,7 @@
 from grasptypes.labels.label_sources import label_sources
 from grasptypes.labels.published_source import FETCHED, published_address, published_path
 from grasptypes.objects.own_objects import measured_map
+from grasptypes.objects.reference_meshes import reference_meshes
 from grasptypes.objects.variants import all_objects, all_variants, base_of
 from grasptypes.predictors.weights import DOWNLOAD_SHA256_START, WEIGHTS_VARIABLE, chosen_weights
 from grasptypes.start_up import check_start
@@ -13,6 +14,7 @@ PUBLISHED_COUNTS = "assets/published_labels.csv"
 try:
     HOLDS = check_start(config, SCHEMA, workflow.basedir, os.environ)
     PUBLISHED_CSV = published_path(os.environ) or []
+    REFERENCE_MESHES = [str(path) for path in reference_meshes(os.environ)]
     OBJECTS, VARIANTS = all_objects(config["objects"]), all_variants(config["objects"])
     TASKS = list(config["tasks"])
     KNOWN = label_sources(config["labels"], PUBLISHED_COUNTS, OBJECTS, TASKS)
@@ -104,21 +106,15 @@ def contact_settings(wildcards):
     return settings("contact_maps", "measured") | {"holds": holds}
 
 
-def reference_meshes():
-    """The scans in the folder that the user names, if any."""
-    named = os.environ.get("GRASPTYPES_REFERENCE_MESHES")
-    return sorted(map(str, Path(named).glob("*.stl"))) if named else []
-
-
 def measuring_hashes():
     """Hashes of the published poses and of the scans, for those who have them."""
     published = [] if PUBLISHED_CSV == FETCHED else PUBLISHED_CSV
-    return hashes(published) | hashes(reference_meshes())
+    return hashes(published) | hashes(REFERENCE_MESHES)
 
 
 def without_scan():
     """Catalogue objects that the folder of reference meshes lacks; none if there is no folder."""
-    scans = {Path(path).stem for path in reference_meshes()}
+    scans = {Path(path).stem for path in REFERENCE_MESHES}
     return [name for name in config["objects"]["names"] if name not in scans] if scans else []
 
 

@@ -4,7 +4,7 @@
 rule evaluate_labels:
     input:
         published=PUBLISHED_CSV,
-        references=reference_meshes(),
+        references=REFERENCE_MESHES,
         # Models of our own stand in where there is no scan.
         own=expand("data/objects/{object}/surface.npz", object=without_scan()),
     output:

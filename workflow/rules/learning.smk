@@ -1,4 +1,4 @@
-# From pictures and labels to predictors, their tables, and their runs in MLflow.
+# From pictures and labels to features, folds and predictors.
 MODELS = ["no_task", "task_vector", "task_in_image", "ignores_task"]
 SAMPLES = {"simulated": "data/samples.csv", "published": "data/published_samples.csv"}
 LABELS = config["labels"]

@@ -95,7 +95,7 @@ rule contact_maps:
 # Few users have the references; without them the table in the repository stays.
 rule compare_shapes:
     input:
-        references=reference_meshes(),
+        references=REFERENCE_MESHES,
         properties=expand(rules.prepare_object.output.properties, object=OBJECTS),
         surfaces=expand(rules.prepare_object.output.surface, object=OBJECTS),
     output:
@@ -115,7 +115,7 @@ rule compare_shapes:
         "../envs/grasptypes.yaml"
     params:
         samples=config["objects"]["comparison"],
-        data=lambda wildcards: hashes(reference_meshes()),
+        data=lambda wildcards: hashes(REFERENCE_MESHES),
         code=script_hash("compare_shapes"),
     message:
         "Comparing the objects with reference meshes"

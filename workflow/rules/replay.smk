@@ -22,7 +22,7 @@ rule fetch_published:
 rule replay_grasps:
     input:
         published=PUBLISHED_CSV,
-        references=reference_meshes(),
+        references=REFERENCE_MESHES,
     output:
         # Kept as it is where the data are lacking.
         table=report(
@@ -54,7 +54,7 @@ rule derive_affinities:
     input:
         surfaces=expand(rules.prepare_object.output.surface, object=OBJECTS),
         published=PUBLISHED_CSV,
-        references=reference_meshes(),
+        references=REFERENCE_MESHES,
     output:
         evidence="reports/contact_evidence/grasps.csv",
         summary="reports/contact_evidence/summary.csv",

@@ -1,4 +1,4 @@
-# Tables of results, and the same results as runs in MLflow.
+# Tables of results.
 
 
 rule tabulate_simulated:

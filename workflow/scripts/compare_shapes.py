@@ -5,10 +5,9 @@ from pathlib import Path
 
 from grasptypes.errors import InputError
 from grasptypes.jobs import job
+from grasptypes.objects.reference_meshes import REFERENCES
 from grasptypes.objects.shape_comparison import SHAPE_TABLE, compare_folder
 from grasptypes.tables import write_table
-
-VARIABLE = "GRASPTYPES_REFERENCE_MESHES"
 
 
 def compare_shapes(
@@ -25,15 +24,15 @@ def compare_shapes(
         write_table(table, target, SHAPE_TABLE)
         return f"compared {len(table)} objects with {references}"
     if not target.exists():
-        raise InputError(VARIABLE, "", f"is not set and there is no {target} to keep")
-    return f"{VARIABLE} is not set: {target} stays as it is"
+        raise InputError(REFERENCES, "", f"is not set and there is no {target} to keep")
+    return f"{REFERENCES} is not set: {target} stays as it is"
 
 
 if __name__ == "__main__":
     with job(snakemake.log) as log:
         line = compare_shapes(
             [Path(path).parent for path in snakemake.input.properties],
-            os.environ.get(VARIABLE, ""),
+            os.environ.get(REFERENCES, ""),
             snakemake.params.samples,
             Path(snakemake.output.table),
         )

@@ -8,6 +8,7 @@ import pandas as pd
 
 from grasptypes.contact_maps.contact_evidence import (
     EVIDENCE_SCHEMA,
+    PATTERN_SCHEMA,
     SUMMARY_SCHEMA,
     object_evidence,
     pattern,
@@ -39,7 +40,7 @@ def derive_affinities(
     evidence = pd.DataFrame(rows)
     write_table(evidence, targets[0], EVIDENCE_SCHEMA)
     write_table(summarise(evidence), targets[1], SUMMARY_SCHEMA)
-    pattern(grasps).to_csv(targets[2], index=False, lineterminator="\n")
+    write_table(pattern(grasps), targets[2], PATTERN_SCHEMA)
 
 
 if __name__ == "__main__":

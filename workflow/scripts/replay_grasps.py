@@ -6,9 +6,9 @@ from pathlib import Path
 from grasptypes.errors import InputError
 from grasptypes.jobs import job
 from grasptypes.labels.published import read_published
-from grasptypes.labels.published_data import REFERENCES
 from grasptypes.labels.published_source import PUBLISHED, published_path
 from grasptypes.labels.replay import REPLAY_SCHEMA, ReplaySettings, replay
+from grasptypes.objects.reference_meshes import REFERENCES
 from grasptypes.tables import write_table
 
 

@@ -134,7 +134,7 @@ def _open_predictor(asked: argparse.Namespace, params: Mapping[str, Any]) -> Any
     settings = params["predict"]
     predictor = open_predictor(asked.folder, settings["labels"], settings["model"])
     check_task(predictor.card, asked.task)
-    # Before OpenGL: see grasptypes.renderer.
+    # Before OpenGL: see grasptypes.renders.renderer.
     importlib.import_module("torchvision")
     return predictor
 

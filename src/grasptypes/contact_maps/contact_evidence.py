@@ -56,6 +56,18 @@ EVIDENCE_SCHEMA = pa.DataFrameSchema(
 )
 
 
+PATTERN_SCHEMA = pa.DataFrameSchema(
+    {
+        "class": pa.Column(str),
+        "task": pa.Column(str),
+        "grip": pa.Column(str, pa.Check.isin(sorted(set(GRIP_OF_TYPE.values())))),
+        "n": pa.Column(int, pa.Check.ge(1)),
+        "share": pa.Column(float, pa.Check.in_range(0, 1)),
+    },
+    strict=True,
+    unique=["class", "task", "grip"],
+)
+
 SUMMARY_SCHEMA = pa.DataFrameSchema(
     {
         "object": pa.Column(str),

@@ -19,7 +19,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from grasptypes.errors import InputError
+from grasptypes.errors import InputError, parsing
 from grasptypes.exchange.records import (
     PosedHands,
     from_position_quaternion,
@@ -91,13 +91,10 @@ def _turned(angles: NDArray[np.float64], factor: float) -> NDArray[np.float64]:
 
 
 def _read(path: str | Path) -> dict[str, Any]:
-    try:
-        with Path(path).open("rb") as file:
-            np.lib.format.read_magic(file)
-            np.lib.format.read_array_header_1_0(file)
-            content = _ArrayUnpickler(file).load()
-    except (OSError, ValueError, EOFError, pickle.UnpicklingError) as error:
-        raise InputError(path, "", f"is no grasp of DexGraspBench: {error}") from error
+    with parsing(path, "is no grasp of DexGraspBench"), Path(path).open("rb") as file:
+        np.lib.format.read_magic(file)
+        np.lib.format.read_array_header_1_0(file)
+        content = _ArrayUnpickler(file).load()
     content = content.item() if isinstance(content, np.ndarray) and content.ndim == 0 else content
     if not isinstance(content, dict):
         raise InputError(path, "", "holds no dictionary")

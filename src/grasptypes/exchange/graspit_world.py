@@ -15,7 +15,7 @@ from xml.etree import ElementTree
 import numpy as np
 from numpy.typing import NDArray
 
-from grasptypes.errors import InputError
+from grasptypes.errors import InputError, parsing
 from grasptypes.exchange.records import (
     PosedHands,
     from_position_quaternion,
@@ -57,10 +57,8 @@ def read_world(path: str | Path) -> PosedHands:
     Raises:
         InputError: not such a world.
     """
-    try:
+    with parsing(path, "is no GraspIt! world"):
         world = ElementTree.parse(path).getroot()
-    except (ElementTree.ParseError, OSError) as error:
-        raise InputError(path, "", f"is no GraspIt! world: {error}") from error
     body = world.find("graspableBody")
     robots = [
         robot for robot in world.findall("robot") if "barrett" in _text(robot, "filename").lower()

@@ -11,8 +11,8 @@ from grasptypes.labels.contacts import ContactSettings
 from grasptypes.labels.published import read_published
 from grasptypes.labels.published_objects import object_distances
 from grasptypes.labels.published_source import PUBLISHED, published_path
+from grasptypes.objects.reference_meshes import REFERENCES
 
-REFERENCES = "GRASPTYPES_REFERENCE_MESHES"
 SOURCES = {
     PUBLISHED: "get GraspTypesWithTasks.csv from github.com/nikleer/GraspTypesWithTasks, or give "
     "its URL and checksum: https://...#sha256=<64 hex digits>",

@@ -21,7 +21,7 @@ import pandera.pandas as pa
 import trimesh
 from numpy.typing import NDArray
 
-from grasptypes.errors import InputError
+from grasptypes.errors import InputError, parsing
 from grasptypes.hand import configuration, kinematics, shapes
 from grasptypes.objects.distance_grid import signed_distance
 
@@ -83,10 +83,8 @@ def read_reference_mesh(path: str | Path, scale: float) -> trimesh.Trimesh:
     Raises:
         InputError: the file is no triangle mesh.
     """
-    try:
+    with parsing(path, "cannot be read as a mesh"):
         mesh = trimesh.load_mesh(path)
-    except (ValueError, OSError) as error:
-        raise InputError(path, "", f"cannot be read as a mesh: {error}") from error
     if not isinstance(mesh, trimesh.Trimesh) or len(mesh.faces) == 0:
         raise InputError(path, "", "holds no triangles")
     mesh.apply_scale(scale)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import io
-import struct
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -11,7 +10,7 @@ import numpy as np
 import trimesh
 from numpy.typing import NDArray
 
-from grasptypes.errors import InputError
+from grasptypes.errors import InputError, parsing
 from grasptypes.objects.mesh_limits import check_counts
 
 
@@ -45,16 +44,14 @@ def read_contact_scan(path: str | Path, metres: float = 1.0) -> ContactScan:
         raise InputError(path, "", "is no contact map: a PLY with a colour a vertex is needed")
     if not path.is_file():
         raise InputError(path, "", "no such file")
-    try:
+    with parsing(path, "cannot be read as PLY"):
         content = _unwrapped(path.read_bytes())
         loaded = trimesh.load(io.BytesIO(content), file_type="ply", process=False)
-    except (ValueError, KeyError, IndexError, struct.error) as error:
-        raise InputError(path, "", f"cannot be read as PLY: {error}") from error
     check_counts(path, loaded)
     red = _red_channel(path, loaded)
     points_m = np.asarray(loaded.vertices, dtype=np.float64) * metres
     if not np.isfinite(points_m).all():
-        raise InputError(path, "", "some vertices are not finite numbers (NaN)")
+        raise InputError(path, "", "some vertices are not finite numbers (NaN or infinite)")
     if not (red > 0).any():
         raise InputError(path, "red", "is 0 at every vertex, which means nothing was seen")
     return ContactScan(points_m, np.where(red > 0, red / 255.0, np.nan))

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import struct
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -14,7 +13,7 @@ import trimesh
 from manifold3d import Manifold, Mesh64
 from numpy.typing import NDArray
 
-from grasptypes.errors import InputError
+from grasptypes.errors import InputError, parsing
 from grasptypes.objects import solids
 from grasptypes.objects.mesh_limits import (
     ImportLimits,
@@ -85,15 +84,13 @@ def _read(path: str | Path, metres: float, limits: ImportLimits) -> dict[str, tr
     if not path.is_file():
         raise InputError(path, "", "no such file")
     check_file(path, limits)
-    try:
+    with parsing(path, "cannot be read as a mesh"):
         scene = trimesh.load_scene(path, process=False)
         geometries = {
             name: mesh
             for name, mesh in _placed(scene).items()
             if isinstance(mesh, trimesh.Trimesh) and len(mesh.faces)
         }
-    except (ValueError, KeyError, IndexError, struct.error, NotImplementedError) as error:
-        raise InputError(path, "", f"cannot be read as a mesh: {error}") from error
     if not geometries:
         raise InputError(path, "", "has no faces: a mesh of triangles is needed")
     check_faces(path, geometries, limits)
@@ -101,7 +98,7 @@ def _read(path: str | Path, metres: float, limits: ImportLimits) -> dict[str, tr
         check_counts(path, mesh)
         if not np.isfinite(mesh.vertices).all():
             bad = int((~np.isfinite(mesh.vertices).all(axis=1)).sum())
-            raise InputError(path, "", f"{bad} vertices are not finite numbers (NaN)")
+            raise InputError(path, "", f"{bad} vertices are not finite numbers (NaN or infinite)")
         mesh.apply_scale(metres)
     if len(geometries) == 1:
         return {"body": next(iter(geometries.values()))}

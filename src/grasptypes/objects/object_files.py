@@ -110,17 +110,3 @@ def write_collision(
         lines += [f"f {a} {b} {c}" for a, b, c in faces + first]
         first += len(vertices)
     write_text(path, "\n".join(lines) + "\n")
-
-
-def read_collision(path: str | Path) -> list[NDArray[np.float64]]:
-    """Read the vertices (V, 3), in metres, of each convex part of a collision.obj."""
-    parts: list[list[list[float]]] = []
-    for line in Path(path).read_text(encoding="utf-8").splitlines():
-        kind, _, rest = line.partition(" ")
-        if kind == "o":
-            parts.append([])
-        elif kind == "v":
-            parts[-1].append([float(number) for number in rest.split()])
-    if not parts:
-        raise InputError(path, "", "holds no convex parts ('o part_0', 'v x y z' lines)")
-    return [np.array(part) for part in parts]

@@ -190,13 +190,6 @@ def difference(solid: Manifold, *cutters: Manifold) -> Manifold:
     return solid - union(*cutters)
 
 
-def intersection(solid: Manifold, *others: Manifold) -> Manifold:
-    """Keep what all solids share."""
-    for other in others:
-        solid = solid ^ other
-    return solid
-
-
 def slabs(solid: Manifold, cuts_m: Sequence[float], axis: str = "z") -> list[Manifold]:
     """Cut a solid at increasing places along x, y or z; returns the slices from low to high.
 

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import pickle
 from collections.abc import Mapping
 from dataclasses import dataclass
 
 import torch
 from torch import Tensor, nn
 
-from grasptypes.errors import InputError
+from grasptypes.errors import InputError, parsing
 from grasptypes.predictors.weights import Weights
 
 
@@ -93,18 +92,21 @@ def load_backbone(weights: Weights, input_px: int) -> Backbone:
     Raises:
         InputError: the file is damaged, holds anything but finite tensors, or fits another network.
     """
-    try:
+    with parsing(weights.path, "not a file of tensors"):
         state = torch.load(weights.path, map_location="cpu", weights_only=True)
-    except (OSError, RuntimeError, EOFError, ValueError, pickle.UnpicklingError) as error:
-        reason = str(error).split("\n")[0].split(". ")[0]
-        raise InputError(weights.path, "", f"not a file of tensors: {reason}") from error
-    if not isinstance(state, Mapping) or not all(torch.is_tensor(v) for v in state.values()):
+    if not isinstance(state, Mapping) or not all(_is_weight(*item) for item in state.items()):
         raise InputError(weights.path, "", "not a state dict (a mapping of names to tensors)")
     endless = [name for name, tensor in state.items() if not torch.isfinite(tensor).all()]
     if endless:
         raise InputError(weights.path, str(endless[0]), "holds numbers that are not finite")
     backbone = untrained_backbone(weights.backbone, input_px, state, str(weights.path))
     return backbone.eval()
+
+
+def _is_weight(name: object, value: object) -> bool:
+    """Whether a member of a state dict is a dense tensor with a name."""
+    dense = isinstance(value, Tensor) and value.layout is torch.strided and not value.is_quantized
+    return dense and isinstance(name, str)
 
 
 def untrained_backbone(

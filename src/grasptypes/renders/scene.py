@@ -16,7 +16,7 @@ from PIL import Image
 from scipy.ndimage import gaussian_filter
 from scipy.spatial.transform import Rotation
 
-from grasptypes.errors import InputError
+from grasptypes.errors import InputError, parsing
 
 # Relative luminance of linear RGB (ITU-R BT.709).
 _LUMINANCE = np.array([0.2126, 0.7152, 0.0722])
@@ -51,10 +51,8 @@ def load_parts(path: str | Path) -> list[Part]:
     Raises:
         InputError: the file is missing, is not a mesh, or holds no faces.
     """
-    try:
+    with parsing(path, "cannot be read as a mesh"):
         scene = trimesh.load_scene(path, process=False)
-    except (OSError, ValueError, LookupError, TypeError, NotImplementedError) as error:
-        raise InputError(path, "", f"cannot be read as a mesh: {error}") from error
     grouped: dict[tuple[float, ...], list[trimesh.Trimesh]] = {}
     for node in scene.graph.nodes_geometry:
         T_object_node, name = scene.graph[node]

@@ -94,7 +94,8 @@ def publish_runs(
 ) -> int:
     """Upsert a parent run for each finished model, its folds below it, and its predictor.
 
-    Without the backbone's weights on this machine the runs are published, the predictors are not.
+    Without the backbone's weights, or pictures for an example, the runs are published and the
+    predictors are not.
 
     Returns:
         how many runs are new.
@@ -103,15 +104,23 @@ def publish_runs(
     models: dict[str, tuple[str, LoggedModel]] = {}
     try:
         weights = recorded_weights(read_backbone_record(root / "data/backbone.json"))
+        example = _example(root / "data/renders")
     except InputError as error:
         logger.warning("runs are published without their predictors: %s", error)
     else:
-        example = read_pictures(min((root / "data/renders").glob("*.zip")))[:1]
         models = {
             record.key: (file_sha256(files.tensors), _servable(files, weights, example))
             for record, files in pairs
         }
     return publish(store, [record for record, _ in pairs], models, METRICS)
+
+
+def _example(renders: Path) -> np.ndarray:
+    """One picture, as predictors take it: (1, H, W, 3) uint8."""
+    archives = sorted(renders.glob("*.zip"))
+    if not archives:
+        raise InputError(renders, "", "holds no pictures to show what a predictor takes")
+    return read_pictures(archives[0])[:1]
 
 
 def _servable(files: Finished, weights: Weights, example: np.ndarray) -> LoggedModel:

@@ -1,4 +1,4 @@
-"""Runs in MLflow, made from finished files; the only module that imports mlflow.
+"""Runs in MLflow, made from finished files.
 
 The store is a view: every run is found again by a key made from what it shows, so publishing
 twice adds nothing, and a deleted store is rebuilt with the same runs.

@@ -140,6 +140,7 @@ class Motors:
         tips = np.where(self.coupled, ratio, 1.0 + ratio)
         speeds = self._settings.closing_speed_rad_s * np.concatenate([[0, 0], self.coupled, tips])
         moves = np.arange(len(angles_rad)) >= BASES.start
+        moves[BASES] = self.coupled
         self._reached_rad = np.where(
             moves, np.maximum(self._reached_rad, angles_rad), self._reached_rad
         )

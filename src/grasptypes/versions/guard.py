@@ -5,7 +5,6 @@ from __future__ import annotations
 import configparser
 import fcntl
 import os
-import shutil
 import sys
 import time
 from collections.abc import Mapping
@@ -55,55 +54,69 @@ def processor_features(description: Path = Path("/proc/cpuinfo")) -> set[str]:
     return {name for line in lines if line.startswith("flags") for name in line.split()[2:]}
 
 
-def release_dead_lock(state: str | Path = ".snakemake", patience_s: float = 2.0) -> IO | None:
-    """Remove the lock that a killed Snakemake left behind.
+class FolderLock:
+    """That one process at a time computes in a folder.
 
-    Snakemake's own lock does not know whether its owner is alive. Beside it we hold one that the
-    kernel releases however the process ends: whoever gets it knows that nobody else is running.
+    Snakemake's own lock does not know whether its owner is alive. The kernel releases this one
+    however the process ends: whoever has it knows that nobody else is running.
 
-    Returns:
-        the open lock file, to be kept for as long as the process lives; None if somebody else is
-        running, in which case Snakemake's own lock decides.
-
-    Raises:
-        InputError: the folder cannot be written.
+    Args:
+        state: Snakemake's folder for what it notes.
+        patience_s: how long another process may hold the lock, such as a dry run that is short.
     """
-    state = Path(state)
-    try:
-        state.mkdir(exist_ok=True)
-        lock = open(state / "running.lock", "a+")  # noqa: SIM115 - open until the process ends
-    except OSError as error:
-        raise InputError(state, "", f"cannot be written: {error.strerror}") from error
-    deadline = time.monotonic() + patience_s
-    while True:
-        try:
-            fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
-            break
-        except BlockingIOError:
-            if time.monotonic() > deadline:
-                lock.seek(0)
-                owner = lock.read().strip() or "an unknown process"
-                sys.stderr.write(f"another run holds this folder: process {owner}\n")
-                return None
-            time.sleep(0.1)
-    lock.truncate(0)
-    lock.write(str(os.getpid()))
-    lock.flush()
-    shutil.rmtree(state / "locks", ignore_errors=True)
-    (state / "locks").mkdir(exist_ok=True)
-    return lock
+
+    def __init__(self, state: str | Path = ".snakemake", patience_s: float = 2.0) -> None:
+        self.path = Path(state) / "running.lock"
+        self.patience_s = patience_s
+        self.file: IO | None = None
+
+    def take(self) -> bool:
+        """Hold the lock until the process ends, or say who holds it; returns whether we do.
+
+        Raises:
+            InputError: the folder cannot be written, or its file system knows no locks.
+        """
+        if self.file is None:
+            try:
+                self.path.parent.mkdir(exist_ok=True)
+                self.file = self._locked()
+            except OSError as error:
+                raise InputError(self.path, "", f"cannot be locked: {error.strerror}") from error
+        return self.file is not None
+
+    def _locked(self) -> IO | None:
+        deadline = time.monotonic() + self.patience_s
+        file = open(self.path, "a+")  # noqa: SIM115 - open until the process ends
+        while True:
+            try:
+                fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+                break
+            except BlockingIOError:
+                if time.monotonic() > deadline:
+                    with file:
+                        file.seek(0)
+                        owner = file.read().strip() or "an unknown process"
+                    sys.stderr.write(f"another run holds this folder: process {owner}\n")
+                    return None
+                time.sleep(0.1)
+        os.truncate(file.fileno(), 0)
+        os.write(file.fileno(), str(os.getpid()).encode())
+        return file
 
 
 def remove_leftovers(root: str | Path) -> list[Path]:
-    """Remove the half-written files of a killed run; only for who holds the lock of the folder.
+    """Remove what a killed run left: Snakemake's lock, and files half written.
 
-    Results are written under another name and renamed, so nobody ever reads such a file.
+    Only for who holds the folder's lock. Results are written under another name and renamed, so
+    nobody ever reads a file that is half written.
 
     Returns:
         the removed files.
     """
+    locks = (Path(root) / ".snakemake/locks").glob("*.lock")
     folders = (Path(root) / name for name in ("data", "models", "reports"))
-    found = [path for folder in folders for path in folder.rglob(f".*{TEMPORARY}")]
+    halves = (path for folder in folders for path in folder.rglob(f".*{TEMPORARY}"))
+    found = [*locks, *halves]
     for path in found:
         path.unlink()
     return found

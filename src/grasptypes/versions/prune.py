@@ -18,7 +18,7 @@ from grasptypes.errors import InputError
 from grasptypes.labels.label_sources import SOURCES
 from grasptypes.objects.variants import all_objects
 from grasptypes.params import load_params
-from grasptypes.versions.guard import release_dead_lock
+from grasptypes.versions.guard import FolderLock
 from grasptypes.versions.job_records import RECORDS, recorded_result
 
 OBJECT_FOLDERS = (
@@ -102,15 +102,14 @@ def main() -> None:
     try:
         # Checked whole: a typing error must not pass for a removed object.
         params = load_params("params.yaml", "workflow/schemas/params.schema.yaml")
-        lock = release_dead_lock()
+        lock = FolderLock()
+        if not lock.take():  # and who holds it has been said
+            sys.exit(1)
     except InputError as error:
         sys.exit(f"error: {error}")
-    if lock is None:  # and who holds it has been said
-        sys.exit(1)
-    with lock:
-        objects, tasks, labels = all_objects(params["objects"]), params["tasks"], params["labels"]
-        for path in prune(".", objects, tasks, labels):
-            logger.info("removed %s, which is no longer in params.yaml", path)
+    objects, tasks, labels = all_objects(params["objects"]), params["tasks"], params["labels"]
+    for path in prune(".", objects, tasks, labels):
+        logger.info("removed %s, which is no longer in params.yaml", path)
 
 
 if __name__ == "__main__":

@@ -57,9 +57,10 @@ def test_surface_is_closed_even_and_named(folder):
 def test_files_agree_with_each_other(folder):
     surface = object_files.read_surface(folder / object_files.SURFACE)
     grid = DistanceGrid.load(folder / object_files.DISTANCE_GRID)
-    hulls = object_files.read_collision(folder / object_files.COLLISION)
+    lines = (folder / object_files.COLLISION).read_text().splitlines()
+    hulls = [[float(x) for x in line.split()[1:]] for line in lines if line.startswith("v ")]
     assert np.abs(grid.distance(surface.vertices)).max() < 2e-3
-    assert grid.distance(np.vstack(hulls)).max() < 2e-3
+    assert grid.distance(np.array(hulls)).max() < 2e-3
     properties = object_files.read_properties(folder / object_files.PROPERTIES)
     assert np.array(properties["bounds_m"]) == pytest.approx(
         np.array([surface.vertices.min(axis=0), surface.vertices.max(axis=0)]), abs=2e-4

@@ -187,6 +187,14 @@ def test_without_the_weights_the_runs_are_published_all_the_same(results, caplog
     assert len(runs(results)) == 3
 
 
+def test_without_pictures_the_runs_are_published_all_the_same(results, caplog, monkeypatch):
+    monkeypatch.setattr("grasptypes.runs.publishing.recorded_weights", lambda record: record)
+    with caplog.at_level(logging.WARNING):
+        publish(results)
+    assert "holds no pictures" in caplog.text
+    assert len(runs(results)) == 3
+
+
 def test_the_checksum_of_a_folder_is_that_of_its_listing(results):
     command = "cd data/features && sha256sum * | sha256sum"
     shell = subprocess.run(

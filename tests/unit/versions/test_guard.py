@@ -1,3 +1,4 @@
+import errno
 import os
 import signal
 import subprocess
@@ -9,17 +10,17 @@ import pytest
 from grasptypes.errors import InputError
 from grasptypes.versions.guard import (
     COMMON_INSTRUCTIONS,
+    FolderLock,
     check_cache_links,
     processor_features,
-    release_dead_lock,
     remove_leftovers,
 )
 
 HOLDER = """
 import sys, time
-from grasptypes.errors import InputError
-from grasptypes.versions.guard import check_cache_links, release_dead_lock
-lock = release_dead_lock(sys.argv[1])
+from grasptypes.versions.guard import FolderLock
+lock = FolderLock(sys.argv[1])
+assert lock.take()
 print("held", flush=True)
 time.sleep(60)
 """
@@ -39,50 +40,63 @@ def hold(state: Path) -> subprocess.Popen:
 
 
 def test_a_killed_run_leaves_no_lock(tmp_path: Path) -> None:
-    state = tmp_path / ".snakemake"
-    process = hold(state)
-    (state / "locks" / "0.input.lock").write_text("reports/table1.csv")
+    process = hold(tmp_path)
     process.send_signal(signal.SIGKILL)
     process.wait()
-    lock = release_dead_lock(state)
-    assert lock is not None
-    assert list((state / "locks").iterdir()) == []
-    lock.close()
+    lock = FolderLock(tmp_path)
+    assert lock.take()
+    assert lock.take()
+    assert lock.path.read_text() == str(os.getpid())
 
 
 def test_a_living_run_keeps_its_lock_and_is_named(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    state = tmp_path / ".snakemake"
-    process = hold(state)
+    process = hold(tmp_path)
+    lock = FolderLock(tmp_path, patience_s=0.2)
     try:
-        held = state / "locks" / "0.input.lock"
-        held.write_text("reports/table1.csv")
-        assert release_dead_lock(state, patience_s=0.2) is None
-        assert held.exists()
-        assert f"process {process.pid}" in capsys.readouterr().err
+        assert not lock.take()
+        message = f"another run holds this folder: process {process.pid}\n"
+        assert capsys.readouterr().err == message
     finally:
         process.kill()
         process.wait()
+    assert lock.take()
 
 
-def test_half_written_files_of_a_killed_run_are_removed(tmp_path: Path) -> None:
+def test_what_a_killed_run_left_is_removed(tmp_path: Path) -> None:
     kept = tmp_path / "data" / "grasps.csv"
+    lock = tmp_path / ".snakemake" / "locks" / "0.input.lock"
     half = tmp_path / "data" / "objects" / "mug" / ".surface.npz.4711.tmp"
     mine = tmp_path / "notes" / ".draft.tmp"
-    for path in (kept, half, mine):
+    for path in (kept, lock, half, mine):
         path.parent.mkdir(parents=True, exist_ok=True)
         path.touch()
-    assert remove_leftovers(tmp_path) == [half]
+    assert remove_leftovers(tmp_path) == [lock, half]
     assert kept.exists()
     assert mine.exists()
+    assert not lock.exists()
     assert not half.exists()
 
 
 def test_a_folder_that_takes_nothing_is_named(tmp_path: Path) -> None:
     (tmp_path / "file").touch()
-    with pytest.raises(InputError, match=r"file/state: cannot be written: Not a directory"):
-        release_dead_lock(tmp_path / "file" / "state")
+    with pytest.raises(InputError, match=r"running\.lock: cannot be locked: Not a directory"):
+        FolderLock(tmp_path / "file" / "state").take()
+
+
+@pytest.mark.parametrize(("call", "error"), [("fcntl.flock", "ENOLCK"), ("os.write", "ENOSPC")])
+def test_a_disk_that_is_full_or_knows_no_locks_costs_one_line(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, call: str, error: str
+) -> None:
+    number = getattr(errno, error)
+
+    def refuse(*_: object) -> None:
+        raise OSError(number, os.strerror(number))
+
+    monkeypatch.setattr(f"grasptypes.versions.guard.{call}", refuse)
+    with pytest.raises(InputError, match=os.strerror(number)):
+        FolderLock(tmp_path).take()
 
 
 @pytest.mark.parametrize("types", ["hardlink", "symlink", '"reflink,hardlink,copy"'])

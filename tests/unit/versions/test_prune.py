@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from grasptypes.versions.guard import release_dead_lock
+from grasptypes.versions.guard import FolderLock
 from grasptypes.versions.prune import main, prune
 
 BOTH = ["simulated", "published"]
@@ -75,12 +75,14 @@ def test_nothing_is_deleted_while_another_run_is_at_work(
     (root / "data/objects/gone").mkdir()
     (root / "data/objects/gone/visual.glb").touch()
     monkeypatch.chdir(root)
-    with release_dead_lock(".snakemake"):  # type: ignore[union-attr]
-        with pytest.raises(SystemExit) as end:
-            main()
-        assert end.value.code == 1
+    other = FolderLock()
+    assert other.take()
+    with pytest.raises(SystemExit) as end:
+        main()
+    assert end.value.code == 1
     assert capsys.readouterr().err == f"another run holds this folder: process {os.getpid()}\n"
     assert (root / "data/objects/gone/visual.glb").exists()
+    del other
     main()
     assert not (root / "data/objects/gone").exists()
     assert (root / "data/objects/mug").exists()
