@@ -200,3 +200,15 @@ def test_the_authors_own_file(tmp_path):
         np.stack(again.hand_configuration), np.stack(known.hand_configuration), rtol=1e-8
     )
     assert again.grasp_type.tolist() == known.grasp_type.tolist()
+
+
+def test_a_tip_pressed_behind_its_finger_counts_as_coupled() -> None:
+    """GraspIt!'s clutch lets a tip go ahead, never back."""
+    behind = kinematics.couple(np.radians([0.0, 90.0, 90.0, 90.0]))
+    behind[5] -= 0.02
+    behind[6] += 0.02
+    values = graspit_world.dof_values(behind)
+    assert values[2] == 0.0
+    assert values[1] == behind[2]
+    assert values[5] == 1.0
+    assert values[6] == behind[3]

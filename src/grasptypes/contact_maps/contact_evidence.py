@@ -193,7 +193,7 @@ def summarise(evidence: pd.DataFrame) -> pd.DataFrame:
 
 
 def pattern(grasps: pd.DataFrame) -> pd.DataFrame:
-    """Share of each grip by class of object and task, among the published grasps with poses.
+    """Share of each grip by class of object and task, among all published grasps with a type.
 
     Args:
         grasps: the table of `published.read_published`.

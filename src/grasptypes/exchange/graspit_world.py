@@ -73,11 +73,14 @@ def read_world(path: str | Path) -> PosedHands:
 
 
 def dof_values(joint_angles_rad: Array) -> list[float]:
-    """The ten numbers of GraspIt!'s Barrett for joint angles (8,), radians."""
+    """The ten numbers of GraspIt!'s Barrett for joint angles (8,), radians.
+
+    Its tips cannot be behind their fingers: those that physics pressed there count as coupled.
+    """
     values = [float(joint_angles_rad[0])]
     for finger in range(3):
         proximal, distal = joint_angles_rad[2 + finger], joint_angles_rad[5 + finger]
-        apart = abs(distal - DISTAL_RATIO * proximal) > COUPLED_RAD
+        apart = distal - DISTAL_RATIO * proximal > COUPLED_RAD
         driven = distal / DISTAL_RATIO if apart else proximal
         values += [float(driven), float(apart), float(proximal if apart else 0.0)]
     return values

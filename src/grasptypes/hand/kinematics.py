@@ -141,6 +141,19 @@ def fingertips(joint_angles_rad: ArrayLike) -> Array:
     return distal[..., :3, 3] + DISTAL_LENGTH_M * distal[..., :3, 0]
 
 
+def lag(joint_angles_rad: ArrayLike) -> Array:
+    """How far each fingertip is behind the angle coupled to its finger's base, radians.
+
+    Args:
+        joint_angles_rad: (..., 8) in the order of `JOINT_NAMES`.
+
+    Returns:
+        (..., 3), negative where the TorqueSwitch has let the tip go ahead.
+    """
+    angles = np.asarray(joint_angles_rad, dtype=np.float64)
+    return DISTAL_RATIO * angles[..., 2:5] - angles[..., 5:8]
+
+
 def beyond_limits(
     angles_rad: ArrayLike, limits_rad: ArrayLike, tolerance_rad: float
 ) -> NDArray[np.bool_]:

@@ -132,7 +132,8 @@ def closing_directions(T_hand_link: Array, position_m: Array) -> Array:
     """Unit vectors (n, 9, 3) in which points (n, 9, 3) on the links move as the fingers close.
 
     Zero for the palm and the knuckles. A fingertip turns about its finger's base like the link
-    before it, because the motor drives both.
+    before it, because the motor drives both; of a finger whose base has been stopped, that is how
+    it came, not how it would go on.
     """
     directions = np.zeros_like(position_m)
     for link in FINGER_LINKS:

@@ -11,17 +11,9 @@ from numpy.typing import NDArray
 
 from grasptypes.errors import InputError
 from grasptypes.hand import configuration
+from grasptypes.labels.grasp_type import GRASP_TYPES
 
 TASKS = ("handoff", "use")
-GRASP_TYPES = (
-    "Large Wrap",
-    "Medium Wrap",
-    "Small Wrap",
-    "Power Sphere",
-    "Precision Sphere",
-    "Precision",
-    "Invalid",
-)
 
 # Published numbers have six digits; a pose further from a rigid one is not a rounding error.
 RIGID_TOLERANCE = 1e-3

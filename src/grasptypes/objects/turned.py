@@ -10,7 +10,6 @@ from grasptypes.objects.parts import Material, ObjectModel, Part
 
 WATER_BLUE = Material((0.52, 0.76, 0.90, 1.0), roughness=0.15)
 LABEL_BLUE = Material((0.07, 0.22, 0.62, 1.0), roughness=0.5)
-LABEL_WHITE = Material((0.96, 0.96, 0.97, 1.0), roughness=0.5)
 CAP_WHITE = Material((0.95, 0.95, 0.96, 1.0), roughness=0.4)
 OPAL_GLASS = Material((0.98, 0.96, 0.88, 1.0), roughness=0.25)
 BRASS = Material((0.72, 0.60, 0.34, 1.0), metallic=0.5, roughness=0.35)

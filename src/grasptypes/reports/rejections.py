@@ -10,7 +10,7 @@ import pandas as pd
 from grasptypes.synthesis.grasps import REASONS
 
 IN_WORDS = {
-    "joint_limit": "a joint beyond its limit",
+    "joint_limit": "a joint beyond its limits",
     "self_collision": "one link of the hand in another",
     "penetrates": "the hand in the object",
     "no_contact": "too few contacts",

@@ -57,7 +57,7 @@ class CandidateSettings(NamedTuple):
     rolls: int
     """Evenly spaced rolls of the others."""
     start_m: float
-    """Distance at which hands start, clear of any object."""
+    """How far before the object's foremost point hands start, so that they are clear of it."""
     back_offs_m: list[float]
     """How far hands draw back again from where they touched."""
     grips: Mapping[str, Mapping[str, Any]]
@@ -91,10 +91,12 @@ def draw_candidates(
     distance = draw.choice(grip["palm_distances_m"], count)
     T = np.zeros((count, 4, 4))
     T[:, :3, :3] = frames(approach, side)
-    T[:, :3, 3] = aim - settings.start_m * approach
+    foremost = (person.points_m @ approach.T).min(axis=0)
+    start = np.einsum("ni,ni->n", aim, approach) - foremost + settings.start_m
+    T[:, :3, 3] = aim - start[:, None] * approach
     T[:, 3, 3] = 1.0
-    moved = slide_in(model, grid, T, spread, settings.start_m - distance, closing)
-    touched = moved < settings.start_m - distance - closing.touch_m
+    moved = slide_in(model, grid, T, spread, start - distance, closing)
+    touched = moved < start - distance - closing.touch_m
     moved -= touched * draw.choice(settings.back_offs_m, count)
     T[:, :3, 3] += moved[:, None] * approach
     return Hands(T, close_fingers(model, grid, T, spread, closing))

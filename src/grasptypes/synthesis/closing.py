@@ -234,6 +234,5 @@ def _free_turn(
         gaps[m] = distance(grid, x, y, z)
         if gaps[m] <= touch_m:
             return 0.0
-        # Moving by the tolerance at least keeps a glancing approach from taking ever smaller steps.
-        step = min(step, max(gaps[m], touch_m) / levers[m])
+        step = min(step, gaps[m] / levers[m])
     return step

@@ -60,7 +60,7 @@ ATTEMPT_SCHEMA = pa.DataFrameSchema(
 GRASP_SCHEMA = pa.DataFrameSchema(
     {
         **_TRIAL_COLUMNS,
-        "tries": pa.Column(int, pa.Check.ge(1), description="grasps that physics saw"),
+        "tries": pa.Column(int, pa.Check.ge(1), description="grasps that were looked at"),
         "grip": pa.Column(str, description="the person's, of the affinity table"),
         "contact_links": pa.Column(object, description="link of each contact, its name"),
         "contact_points_m": pa.Column(object, description="3 numbers a contact, object frame"),

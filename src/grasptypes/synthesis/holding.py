@@ -118,8 +118,7 @@ class Motors:
     """
 
     def __init__(self, angles_rad: Array, settings: PhysicsSettings) -> None:
-        lead = angles_rad[TIPS] - kinematics.DISTAL_RATIO * angles_rad[BASES]
-        self.coupled: NDArray[np.bool_] = np.abs(lead) < DRIVEN_BACK_RAD
+        self.coupled: NDArray[np.bool_] = np.abs(kinematics.lag(angles_rad)) < DRIVEN_BACK_RAD
         """(3,) fingers whose base and tip still turn together."""
         self._settings = settings
         self._interval_s = settings.timestep_s * settings.control_steps

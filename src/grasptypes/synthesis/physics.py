@@ -34,7 +34,7 @@ DIRECTIONS = np.concatenate([-np.eye(3)[::-1], np.eye(3)[::-1]])
 """(6, 3) ways of gravity in the object's frame; the first, -z, is that of an object set down."""
 
 LOOKS = 20
-"""How often a test looks whether the object has been dropped already."""
+"""How often a test looks, at most, whether the object has been dropped already."""
 
 
 class Physics:
@@ -75,13 +75,14 @@ class Physics:
         hand, thing = self._load(T_object_hand, angles)
         motors = Motors(angles, settings)
         self._couple(hand, motors)
-        self._run(hand, thing, motors, settings.squeeze_time_s)
+        interval_s = settings.timestep_s * settings.control_steps
+        self._run(hand, thing, motors, round(settings.squeeze_time_s / interval_s))
         before = self._pose(thing)
         down = T_object_hand[:3, :3].T @ direction * settings.gravity_m_s2
         pybullet.setGravity(*down, physicsClientId=client)
-        dropped = False
-        for _ in range(LOOKS):
-            self._run(hand, thing, motors, settings.hold_time_s / LOOKS)
+        dropped, whole = False, max(1, round(settings.hold_time_s / interval_s))
+        for intervals in np.diff(np.linspace(0, whole, min(LOOKS, whole) + 1).astype(int)).tolist():
+            self._run(hand, thing, motors, intervals)
             after = self._pose(thing)
             moved, turned = _difference(before, after, self._body.centre_of_mass_m)
             dropped = moved > settings.drop_distance_m or turned > settings.drop_rotation_rad
@@ -175,10 +176,14 @@ class Physics:
         )
         return thing
 
-    def _run(self, hand: int, thing: int, motors: Motors, time_s: float) -> None:
-        """Let time pass while the motors close the fingers as far as their force allows."""
+    def _run(self, hand: int, thing: int, motors: Motors, intervals: int) -> None:
+        """Let time pass while the motors close the fingers as far as their force allows.
+
+        Args:
+            intervals: how often the motors are commanded, each time for `control_steps`.
+        """
         settings, client = self._settings, self._client
-        for _ in range(round(time_s / (settings.timestep_s * settings.control_steps))):
+        for _ in range(intervals):
             states = pybullet.getJointStates(hand, self._joints, physicsClientId=client)
             self._release_stopped(hand, thing, motors)
             speeds, torques = motors.drive(np.array([state[0] for state in states]))

@@ -58,7 +58,7 @@ class RankingSettings(NamedTuple):
     """
 
     tries: int
-    """How many grasps physics may see."""
+    """How many grasps are looked at, at most."""
     min_fingers: int
     """Fingers that must touch."""
     contact_m: float

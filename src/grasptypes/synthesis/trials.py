@@ -43,6 +43,8 @@ class ValiditySettings(NamedTuple):
     """Distance up to which a planned finger touches."""
     limit_tolerance_rad: float
     """How far a joint may be beyond its limit."""
+    lag_tolerance_rad: float
+    """How far a fingertip may be behind where its finger's base would have it."""
 
 
 class Hand(NamedTuple):
@@ -204,7 +206,8 @@ def _flaw(
 
 def _beyond_limits(angles: Array, validity: ValiditySettings) -> bool:
     limits = kinematics.JOINT_LIMITS_RAD
-    return bool(kinematics.beyond_limits(angles, limits, validity.limit_tolerance_rad).any())
+    beyond = kinematics.beyond_limits(angles, limits, validity.limit_tolerance_rad).any()
+    return bool(beyond or kinematics.lag(angles).max() > validity.lag_tolerance_rad)
 
 
 def _row(

@@ -71,3 +71,10 @@ def test_beyond_limits_names_the_joint_and_allows_the_tolerance() -> None:
     dofs = np.radians([[0, 140.4, 20, 150], [-1, 0, 0, 0]])
     beyond = kinematics.beyond_limits(dofs, kinematics.DOF_LIMITS_RAD, np.radians(0.5))
     np.testing.assert_array_equal(beyond, [[0, 0, 0, 1], [1, 0, 0, 0]])
+
+
+def test_a_tip_lags_by_what_is_missing_to_a_third_of_its_finger() -> None:
+    angles = kinematics.couple(np.radians([[10.0, 60.0, 90.0, 120.0]]))
+    np.testing.assert_allclose(kinematics.lag(angles), 0.0, atol=1e-12)
+    angles[0, 5:] += np.radians([5.0, 0.0, -2.0])
+    np.testing.assert_allclose(np.degrees(kinematics.lag(angles)), [[-5.0, 0.0, 2.0]], atol=1e-9)

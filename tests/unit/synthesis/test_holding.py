@@ -48,11 +48,20 @@ def test_a_joint_that_is_driven_back_withstands_the_passive_force() -> None:
     motors = released(0)
     motors.drive(ANGLES + 0.2)
     speeds, torques = motors.drive(ANGLES + 0.1)
-    assert np.all(speeds[2:6] > 0)
+    assert np.all(speeds[3:6] > 0)
     np.testing.assert_allclose(torques[5], SETTINGS.passive_force_n * kinematics.DISTAL_LENGTH_M)
     closing = Motors(ANGLES, SETTINGS).drive(ANGLES)[1]
     more = SETTINGS.passive_force_n / SETTINGS.fingertip_force_n
     np.testing.assert_allclose(torques[3:5], more * closing[3:5])
+
+
+def test_the_base_of_a_released_finger_keeps_its_place_when_pushed_either_way() -> None:
+    for shift in (0.1, -0.1):
+        motors = released(1)
+        motors.drive(ANGLES + shift)
+        speeds, torques = motors.drive(ANGLES + shift)
+        assert np.sign(speeds[3]) == -np.sign(shift)
+        assert torques[3] > 4 * SETTINGS.fingertip_force_n * kinematics.DISTAL_LENGTH_M
 
 
 def test_spread_returns_to_where_it_was_from_either_side() -> None:

@@ -123,6 +123,13 @@ def test_shaking_reports_the_worst_direction(body) -> None:
     assert shaken.moved_m >= still.moved_m
 
 
+@pytest.mark.parametrize("changes", [{"hold_time_s": 0.15}, {"control_steps": 100}])
+def test_gravity_acts_however_short_the_test_or_long_an_interval_is(tmp_path, changes) -> None:
+    settings = SETTINGS._replace(squeeze_time_s=0.0, **changes)
+    with physics(URDF, ball_body(tmp_path), settings) as world:
+        assert world.hold(palm_at(0.3)[0], GOOD[1]).moved_m > settings.drop_distance_m
+
+
 def test_a_heavy_ball_is_dropped(tmp_path) -> None:
     with physics(URDF, ball_body(tmp_path, mass_kg=20.0), SETTINGS) as world:
         assert world.hold(*OTHER).dropped

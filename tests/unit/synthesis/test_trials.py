@@ -65,6 +65,21 @@ def test_reasons() -> None:
     assert tried(World([True], sink_m=0.01)).reason == "penetrates"
 
 
+@pytest.mark.parametrize(("degrees", "reason"), [(1.5, ""), (2.5, "joint_limit")])
+def test_a_fingertip_that_was_pushed_behind_its_finger_is_no_state_of_the_hand(
+    degrees, reason
+) -> None:
+    @dataclass
+    class Pushing(World):
+        def hold(self, T_object_hand, joint_angles_rad):
+            held = super().hold(T_object_hand, joint_angles_rad)
+            pushed = held.joint_angles_rad.copy()
+            pushed[7] = kinematics.DISTAL_RATIO * pushed[4] - np.radians(degrees)
+            return held._replace(joint_angles_rad=pushed)
+
+    assert tried(Pushing([True])).reason == reason
+
+
 def test_a_thin_wall_between_the_hand_s_points_penetrates() -> None:
     wall = T[0, :3, 3] + [[0.0, 0.0, 0.004]]
     thing = ball_thing()
