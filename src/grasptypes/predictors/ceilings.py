@@ -7,6 +7,8 @@ from itertools import product
 import numpy as np
 import pandas as pd
 
+from grasptypes.labels.samples import labels_of
+from grasptypes.predictors.leaving_out import members_by_object
 from grasptypes.predictors.metrics import (
     METRICS,
     angular_similarity,
@@ -21,11 +23,13 @@ def ceilings(labels: np.ndarray) -> pd.DataFrame:
     """The three reference predictors.
 
     ``task_blind`` knows the object but not the task, ``best_constant`` gives one answer for
-    everything, ``all_types`` answers all types. Vectors are the mean of the unit label vectors. For
-    two samples no other vector is more similar to both. For more it has the largest mean cosine,
-    not the largest mean angular similarity, so the similarity of ``best_constant``, and that of
-    ``task_blind`` with three tasks or more, is only a lower bound of the best there is. Sets are
-    those of the best accuracy; the precision is theirs, another set may have a better one.
+    everything, ``all_types`` answers all types. The first two are oracles: they are fitted to the
+    labels that they are scored on; :func:`constant_of_others` is not. Vectors are the mean of the
+    unit label vectors. For two samples no other vector is more similar to both. For more it has the
+    largest mean cosine, not the largest mean angular similarity, so the similarity of
+    ``best_constant``, and that of ``task_blind`` with three tasks or more, is only a lower bound of
+    the best there is. Sets are those of the best accuracy; the precision is theirs, another set may
+    have a better one.
 
     Args:
         labels: (objects, tasks, K) truth values.
@@ -44,13 +48,62 @@ def ceilings(labels: np.ndarray) -> pd.DataFrame:
     return pd.DataFrame.from_dict(rows, orient="index", columns=list(METRICS))
 
 
+def constant_of_others(samples: pd.DataFrame, joint: bool) -> pd.DataFrame:
+    """Scores on each object of the constant answer that is best for the other objects.
+
+    The answer is chosen as that of ``best_constant`` in :func:`ceilings`, on the labels that a
+    predictor is trained on that the object is left out of: not those of its variants either. Its
+    set is the weaker part: where two sets are nearly as good for all objects, leaving out one that
+    speaks for the first lets the second win, and the accuracy falls.
+
+    Args:
+        samples: of :mod:`grasptypes.labels.samples`.
+        joint: see :func:`labels_asked`.
+
+    Returns:
+        index object (no variants), columns the three measures, means over what is asked.
+    """
+    labels = labels_asked(samples, joint)
+    rows = {}
+    for member in members_by_object(sorted(set(samples["object"])), seeds=1):
+        others = labels[member.train].reshape(1, -1, labels.shape[-1])
+        rows[member.group] = _scores(labels[member.test], *_answers(others))
+    return pd.DataFrame.from_dict(rows, orient="index", columns=list(METRICS))
+
+
+def labels_asked(samples: pd.DataFrame, joint: bool) -> np.ndarray:
+    """The labels that a model is asked for, objects in alphabetical order.
+
+    Args:
+        samples: of :mod:`grasptypes.labels.samples`.
+        joint: asked for the types of all tasks together.
+
+    Returns:
+        (objects, tasks, 6) truth values; with ``joint`` (objects, 1, 6).
+    """
+    labels = labels_of(samples)
+    return np.asarray(labels.any(axis=1, keepdims=True)) if joint else labels
+
+
 def _best(groups: np.ndarray) -> tuple[float, float, float]:
-    """One answer for each group of samples, see :func:`ceilings`: groups (G, N, K) truth values."""
+    """Scores of the answers to groups (G, N, K) on these groups."""
+    return _scores(groups, *_answers(groups))
+
+
+def _answers(groups: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """One answer for each group of samples, see :func:`ceilings`.
+
+    Args:
+        groups: (G, N, K) truth values.
+
+    Returns:
+        (G, 1, K) vectors, and (G, 1, K) sets as truth values.
+    """
     units = groups / np.linalg.norm(groups, axis=-1, keepdims=True)
     candidates = np.array(list(product([False, True], repeat=groups.shape[-1]))[1:])
     accuracy = multilabel_accuracy(candidates[:, None, None], groups).mean(axis=-1)
     sets = candidates[accuracy.argmax(axis=0)]
-    return _scores(groups, units.mean(axis=1, keepdims=True), sets[:, None])
+    return units.mean(axis=1, keepdims=True), sets[:, None]
 
 
 def _scores(

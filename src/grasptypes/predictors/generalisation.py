@@ -9,9 +9,8 @@ import numpy as np
 import pandas as pd
 import pandera.pandas as pa
 
-from grasptypes.labels.samples import labels_of
 from grasptypes.objects.variants import base_of, variant_names
-from grasptypes.predictors.ceilings import ceilings
+from grasptypes.predictors.ceilings import constant_of_others
 from grasptypes.predictors.examples import Examples, assemble
 from grasptypes.predictors.leaving_out import members_by_object
 from grasptypes.predictors.predictor import VARIANTS
@@ -58,7 +57,7 @@ GENERALISATION_SCHEMA = pa.DataFrameSchema(
         "sim_sd": pa.Column(float, description="over the objects left out"),
         "sim_gain": pa.Column(float, nullable=True, description="over one shape, pictures equal"),
         "sim_gain_se": pa.Column(float, nullable=True, description="over the objects left out"),
-        "constant_sim": pa.Column(float, _SHARE, description="of the best constant answer"),
+        "constant_sim": pa.Column(float, _SHARE, description="of the constant of the others"),
         "backbone": pa.Column(str),
         "weights": pa.Column(str),
     },
@@ -135,7 +134,7 @@ def summarize(trials: pd.DataFrame, constant: Mapping[tuple[str, str], float]) -
 
     Args:
         trials: of :data:`TRIAL_SCHEMA`.
-        constant: label source and model to the similarity of the best constant answer.
+        constant: label source and model to the similarity of :func:`constant_similarity`.
     """
     keys = ["labels", "model", "shapes", "views"]
     rows = []
@@ -161,18 +160,17 @@ def summarize(trials: pd.DataFrame, constant: Mapping[tuple[str, str], float]) -
 
 
 def constant_similarity(samples: pd.DataFrame) -> dict[str, float]:
-    """Model to the similarity of the best constant answer to what it is asked.
+    """Model to the similarity of the constant answer to what it is asked, fitted on the others.
 
     Args:
         samples: of :mod:`grasptypes.labels.samples`.
+
+    Returns:
+        means over the objects left out, see :func:`ceilings.constant_of_others`.
     """
-    labels = labels_of(samples)
-    joint = np.asarray(labels.any(axis=1, keepdims=True))
-    best = {
-        asked: ceilings(known).loc["best_constant", "angular_similarity"]
-        for asked, known in ((False, labels), (True, joint))
-    }
-    return {model: float(best[variant.joint_labels]) for model, variant in VARIANTS.items()}
+    measure = "angular_similarity"
+    mean = {joint: constant_of_others(samples, joint)[measure].mean() for joint in (False, True)}
+    return {model: float(mean[variant.joint_labels]) for model, variant in VARIANTS.items()}
 
 
 def _gain(trials: pd.DataFrame, group: pd.DataFrame, pictures: int) -> pd.Series | None:
@@ -206,5 +204,5 @@ def describe(table: pd.DataFrame) -> str:
     return (
         f"{most['shapes'].max()} shapes an object in place of one, with as many pictures, change "
         f"the similarity on objects left out by {gains}; {above} of {len(most)} models then "
-        "exceed the best constant answer."
+        "exceed the constant answer that is fitted to the other objects."
     )

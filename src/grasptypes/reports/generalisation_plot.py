@@ -9,7 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from grasptypes.labels.label_pictures import save_figure
-from grasptypes.reports.result_plots import LABELLED
+from grasptypes.reports.result_plots import CONSTANT_LABEL, LABELLED
 
 COLOURS = ("#2a6f97", "#c9a227", "#6c757d", "#b23a48")
 
@@ -56,7 +56,7 @@ def _lines(axes: Axes, rows: pd.DataFrame) -> None:
             )
         constant = rows.loc[rows["model"] == model, "constant_sim"].iloc[0]
         axes.axhline(constant, color=colour, linewidth=0.8, linestyle=":")
-    axes.plot([], [], color="black", linewidth=0.8, linestyle=":", label="best constant answer")
+    axes.plot([], [], color="black", linewidth=0.8, linestyle=":", label=CONSTANT_LABEL)
     axes.set_xscale("log")
     shapes = sorted(set(rows["shapes"]))
     axes.set_xticks(shapes, [str(number) for number in shapes])

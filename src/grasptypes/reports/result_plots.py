@@ -19,6 +19,7 @@ LABELLED = {
     "task_in_image": "(c) task in image",
     "ignores_task": "(d) ignores task",
 }
+CONSTANT_LABEL = "constant answer fitted to the other objects"
 OURS, PAPER, CEILING, CONSTANT = "#2a6f97", "#c9a227", "#6c757d", "#b23a48"
 # End of the axes, and the share of their height that the numbers at the feet of the bars take.
 TOP, FOOT = 1.02, 0.2
@@ -27,7 +28,7 @@ TOP, FOOT = 1.02, 0.2
 def plot_table(table: pd.DataFrame, path: str | Path) -> None:
     """Bars of mean and spread for each model and measure, beside the paper and the ceiling.
 
-    Where the table has no figures of the paper, the best constant answer is drawn instead.
+    Where the table has no figures of the paper, the constant answer of the others is drawn instead.
 
     Args:
         table: of :data:`grasptypes.reports.results.RESULT_SCHEMA`; one row of panels a label
@@ -43,7 +44,7 @@ def plot_table(table: pd.DataFrame, path: str | Path) -> None:
             _bars(axes, used[used["labels"] == labels], short)
             if not _has_paper(used):
                 constant = constant_rows(table, labels)[f"{short}_mean"]
-                _steps(axes, constant, CONSTANT, "best constant answer")
+                _steps(axes, constant, CONSTANT, CONSTANT_LABEL)
             axes.set_title(title, fontsize=10)
         row[0].set_ylabel(f"{labels} labels")
     panels[0][0].set_ylim(_bottom(used), TOP)

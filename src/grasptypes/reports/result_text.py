@@ -7,14 +7,14 @@ from collections.abc import Iterable
 import numpy as np
 import pandas as pd
 
-from grasptypes.reports.results import SHORT, constant_rows
+from grasptypes.reports.results import SHORT
 
 
 def markdown(table: pd.DataFrame) -> str:
     """A table of :data:`RESULT_SCHEMA` as Markdown, mean ± spread in one cell.
 
     Without figures of the paper there is no column for them, and a sentence says instead how the
-    models stand to the best constant answer.
+    models stand to the constant answer that is fitted to the other objects.
     """
     paper = table[[f"paper_{short}" for short in SHORT.values()]].notna().any(axis=None)
     heads = ["model", "labels", "similarity", "accuracy", "precision"]
@@ -41,22 +41,28 @@ def markdown(table: pd.DataFrame) -> str:
 
 
 def beside_constant(table: pd.DataFrame) -> str:
-    """Which models answer worse than the best constant answer, one sentence a label source.
+    """Similarity of the models less that of the constant of the others, a line a label source.
 
     Args:
-        table: of :data:`RESULT_SCHEMA`.
+        table: of :data:`RESULT_SCHEMA`, on unseen objects.
     """
     sentences = []
-    for labels, rows in table[table["labels"] != ""].groupby("labels", sort=False):
-        constant = constant_rows(table, str(labels))["sim_mean"]
-        similarity = rows.set_index("model").loc[constant.index, "sim_mean"]
-        below = similarity.index[similarity < constant]
-        named = ", ".join(f"{m} ({similarity[m]:.3f} < {constant[m]:.3f})" for m in below)
-        sentences.append(
-            f"{labels}: {len(below)} of {len(constant)} models are less similar to the labels of "
-            "unseen objects than the best constant answer, which is chosen knowing all labels"
-            f"{': ' + named if named else ''}."
+    for labels, rows in table[table["n_folds"] > 0].groupby("labels", sort=False):
+        differences = ", ".join(
+            f"{row.model} {row.sim_over_constant:+.3f} ± {row.sim_over_constant_se:.3f}"
+            for row in rows.itertuples()
         )
+        sentences.append(
+            f"{labels}: similarity on the object left out less that of the constant answer fitted "
+            f"to the other objects, mean ± standard error over {rows['n_folds'].max()} objects: "
+            f"{differences}."
+        )
+    sentences.append(
+        "constant_of_others is fitted to the labels that a model is trained on; best_constant to "
+        "those of all objects, the one left out among them. Both give one answer to every object "
+        "and task; those to ignores_task, which is asked for the types of all tasks together, are "
+        "the rows in _joint."
+    )
     return "\n\n".join(sentences)
 
 

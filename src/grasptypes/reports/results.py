@@ -8,8 +8,8 @@ import numpy as np
 import pandas as pd
 import pandera.pandas as pa
 
-from grasptypes.labels.samples import TYPES, labels_of
-from grasptypes.predictors.ceilings import CEILINGS, ceilings
+from grasptypes.labels.samples import TYPES
+from grasptypes.predictors.ceilings import ceilings, constant_of_others, labels_asked
 from grasptypes.predictors.examples import Examples
 from grasptypes.predictors.learning_inputs import BackboneRecord
 from grasptypes.predictors.metrics import METRICS, evaluate
@@ -27,6 +27,8 @@ PAPER = {
 LITERATURE = ("literature", 0.93)
 # The best constant answer for the joint labels of all tasks.
 CONSTANT_JOINT = "best_constant_joint"
+# The constant answer fitted to the other objects, by whether joint labels are asked for.
+CONSTANT_OF_OTHERS = {False: "constant_of_others", True: "constant_of_others_joint"}
 # Beginnings of the columns of a table, by measure.
 SHORT = {
     "angular_similarity": "sim",
@@ -90,6 +92,8 @@ RESULT_SCHEMA = pa.DataFrameSchema(
         **{f"paper_{short}": pa.Column(float, nullable=True) for short in SHORT.values()},
         "ceiling_sim": pa.Column(float, _SHARE, nullable=True),
         "ceiling_acc": pa.Column(float, _SHARE, nullable=True),
+        "sim_over_constant": pa.Column(float, pa.Check.in_range(-1, 1), nullable=True),
+        "sim_over_constant_se": pa.Column(float, pa.Check.ge(0), nullable=True),
     },
     strict=True,
 )
@@ -154,25 +158,35 @@ def tabulate(
     """The rows of Table I, or of Table II on unseen objects, for one label source.
 
     ``ceiling_*`` is what the row's model could reach with perfect recognition of the object: the
-    task-blind ceiling for the model that does not know the task, 1 for the others. The reference
-    predictors and the literature stand in rows of their own; the model that ignores the task is
-    asked for joint labels, so that it has a best constant answer of its own.
+    task-blind ceiling for the model that does not know the task, 1 for the others.
+    ``sim_over_constant`` is the similarity on an unseen object over that of the constant answer
+    fitted to the other objects, mean and standard error over the objects left out (paired). The
+    reference predictors and the literature stand in rows of their own; the model that ignores the
+    task is asked for joint labels, so that it has constant answers of its own.
 
     Args:
         metrics: rows of :data:`METRIC_SCHEMA`, all of these labels.
         samples: the label source's table of :mod:`grasptypes.labels.samples`.
         labels: its name.
         unseen: the groups are objects left out of training. The paper and the literature measured
-            none: their columns stay empty.
+            none: their columns stay empty. Else those of ``sim_over_constant`` do.
 
     Returns:
         a table of :data:`RESULT_SCHEMA`.
     """
-    reference = ceilings(labels_of(samples))
+    reference = ceilings(labels_asked(samples, joint=False))
+    joint_reference = ceilings(labels_asked(samples, joint=True))
+    reference.loc[CONSTANT_JOINT] = joint_reference.loc["best_constant"]
+    constants = {
+        joint: constant_of_others(samples, joint) for joint in CONSTANT_OF_OTHERS if unseen
+    }
+    for joint, scores in constants.items():
+        reference.loc[CONSTANT_OF_OTHERS[joint]] = scores.mean()
     blind = reference.loc["task_blind"]
     rows = []
     for model, group in metrics.groupby("model"):
         knows = model != "no_task"
+        constant = constants.get(VARIANTS[str(model)].joint_labels)
         paper = {} if unseen else dict(zip(SHORT.values(), PAPER[str(model)], strict=True))
         rows.append(
             {"model": model, "labels": labels}
@@ -183,11 +197,10 @@ def tabulate(
             | {f"paper_{short}": value for short, value in paper.items()}
             | {"ceiling_sim": 1.0 if knows else blind["angular_similarity"]}
             | {"ceiling_acc": 1.0 if knows else blind["multilabel_accuracy"]}
+            | ({} if constant is None else _over(constant, group))
         )
     rows.sort(key=lambda row: list(VARIANTS).index(row["model"]))
-    joint = ceilings(labels_of(samples).any(axis=1, keepdims=True))
-    reference.loc[CONSTANT_JOINT] = joint.loc["best_constant"]
-    for name in (*CEILINGS, CONSTANT_JOINT):
+    for name in reference.index:
         values = {f"{short}_mean": reference.loc[name, long] for long, short in SHORT.items()}
         rows.append({"model": name, "labels": labels} | values)
     if not unseen:
@@ -196,24 +209,38 @@ def tabulate(
     texts, counts = ["backbone", "weights"], ["n_folds", "n_seeds"]
     table[texts] = table[texts].fillna("")
     table[counts] = table[counts].fillna(0).astype(int)
-    numbers = [name for name in table if name.endswith(("_mean", "_sd")) or name[:5] == "paper"]
+    ends, starts = ("_mean", "_sd"), ("paper", "sim_over")
+    numbers = [name for name in table if name.endswith(ends) or name.startswith(starts)]
     table[numbers] = table[numbers].astype(float)
     return table.round(6)
 
 
 def constant_rows(table: pd.DataFrame, labels: str) -> pd.DataFrame:
-    """For each trained model the row of the best constant answer to what it is asked.
+    """For each trained model the row of the constant answer of the others to what it is asked.
 
     Args:
-        table: of :data:`RESULT_SCHEMA`.
+        table: of :data:`RESULT_SCHEMA`, on unseen objects.
 
     Returns:
         index model, columns those of the table.
     """
     rows = table[table["labels"] == labels].set_index("model")
     models = rows.index[rows["n_folds"] > 0]
-    named = [CONSTANT_JOINT if VARIANTS[m].joint_labels else "best_constant" for m in models]
+    named = [CONSTANT_OF_OTHERS[VARIANTS[model].joint_labels] for model in models]
     return rows.loc[named].set_axis(models)
+
+
+def _over(constant: pd.DataFrame, group: pd.DataFrame) -> dict[str, float]:
+    """A model's similarity over that of a constant answer, paired by object.
+
+    Args:
+        constant: of :func:`grasptypes.predictors.ceilings.constant_of_others`.
+        group: the model's rows of :data:`METRIC_SCHEMA`, their groups being objects left out.
+    """
+    measure = "angular_similarity"
+    by_object = group.groupby("group")[measure].mean()
+    over = by_object - constant.loc[by_object.index, measure]
+    return {"sim_over_constant": over.mean(), "sim_over_constant_se": over.sem()}
 
 
 def _only(column: pd.Series) -> str:

@@ -6,8 +6,8 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from grasptypes.labels.samples import labels_of, samples_from_counts
-from grasptypes.predictors.ceilings import ceilings
+from grasptypes.labels.samples import COUNTS, labels_of, samples_from_counts
+from grasptypes.predictors.ceilings import ceilings, constant_of_others
 
 PUBLISHED = Path(__file__).parents[3] / "assets" / "published_labels.csv"
 
@@ -31,3 +31,42 @@ def test_published_labels():
     expected["all_types"] = (0.555, 0.583)
     for name, values in expected.items():
         assert table.loc[name].iloc[:2].tolist() == pytest.approx(values, abs=0.0006)
+
+
+def samples(types):
+    """A table of samples: (object, task) to the places of its types."""
+    counts = [[int(place in found) for place in range(6)] for found in types.values()]
+    names = pd.DataFrame(list(types), columns=["object", "task"])
+    return samples_from_counts(
+        pd.concat([names, pd.DataFrame(counts, columns=list(COUNTS))], axis=1)
+    )
+
+
+def test_the_constant_of_the_others_does_not_know_the_object_left_out():
+    known = {("bowl", "use"): [0], ("cup", "use"): [0], ("mug", "use"): [0], ("pan", "use"): [1]}
+    table = constant_of_others(samples(known), joint=False)
+    assert table.loc["pan"].tolist() == pytest.approx([0, 0, 0])  # nobody else has type 1
+    # The mean of two of type 0 and one of type 1 is at an angle of atan(1/2) from type 0.
+    third = 1 - 2 / np.pi * np.arctan(1 / 2)
+    assert table.loc["mug"].tolist() == pytest.approx([third, 1, 1])
+    assert list(table.index) == ["bowl", "cup", "mug", "pan"]
+    everything = ceilings(labels_of(samples(known))).loc["best_constant", "angular_similarity"]
+    assert table["angular_similarity"].mean() < everything
+
+
+def test_the_constant_of_the_others_knows_no_variant_of_the_object_either():
+    known = {("mug", "use"): [0], ("mug_v01", "use"): [0], ("pan", "use"): [1]}
+    table = constant_of_others(samples(known), joint=False)
+    assert table["angular_similarity"].to_dict() == pytest.approx({"mug": 0, "pan": 0})
+
+
+def test_joint_labels_have_a_constant_of_the_others_of_their_own():
+    known = {
+        (name, task): [place]
+        for name in ("mug", "pan")
+        for place, task in enumerate(("use", "handoff"))
+    }
+    apart = constant_of_others(samples(known), joint=False)["angular_similarity"]
+    assert apart.tolist() == pytest.approx([0.5, 0.5])  # between two types at right angles
+    joint = constant_of_others(samples(known), joint=True)["angular_similarity"]
+    assert joint.tolist() == pytest.approx([1, 1])  # both types, for both tasks

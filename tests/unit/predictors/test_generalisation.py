@@ -5,6 +5,7 @@ import pandas as pd
 import pytest
 from learning import OBJECTS, RECIPE, TASKS, VIEWS, features, samples
 
+from grasptypes.predictors.ceilings import constant_of_others
 from grasptypes.predictors.generalisation import (
     GENERALISATION_SCHEMA,
     Known,
@@ -66,6 +67,14 @@ def test_as_many_pictures_are_trained_on_whatever_the_shapes(trials):
     assert set(trials.n_test) == {VIEWS * len(TASKS)}
 
 
+def test_the_constant_answer_is_fitted_to_the_other_objects():
+    found = constant_similarity(samples())
+    for model, joint in (("task_vector", False), ("ignores_task", True)):
+        scores = constant_of_others(samples(), joint)
+        assert found[model] == pytest.approx(scores["angular_similarity"].mean())
+    assert found["task_vector"] != pytest.approx(found["ignores_task"])
+
+
 def test_the_gain_is_that_over_one_shape_in_as_many_pictures(trials, tmp_path):
     best = constant_similarity(samples())
     constant = {("simulated", model): value for model, value in best.items()}
@@ -74,6 +83,7 @@ def test_the_gain_is_that_over_one_shape_in_as_many_pictures(trials, tmp_path):
     assert np.isnan(one.sim_gain)
     assert two.sim_gain == pytest.approx(two.sim_mean - one.sim_mean, abs=2e-6)
     assert (table.n_objects == len(OBJECTS)).all()
+    assert (table.constant_sim - best["task_vector"]).abs().max() < 1e-6
     assert f"task_vector {two.sim_gain:+.3f}" in describe(table)
     for path in (tmp_path / "first.png", tmp_path / "second.png"):
         plot_generalisation(table, path)
