@@ -7,6 +7,7 @@ import logging
 import sys
 import warnings
 from collections.abc import Sequence
+from concurrent.futures.process import BrokenProcessPool
 from typing import NoReturn
 
 from grasptypes.commands import plan, predict
@@ -34,7 +35,11 @@ def parser() -> argparse.ArgumentParser:
 
 
 def main(arguments: Sequence[str] | None = None) -> None:
-    """Run one command; bad input, or a full disk, ends with one line and exit status 1."""
+    """Run one command.
+
+    Bad input, a full disk and too little memory end with one line and exit status 1, Ctrl-C with
+    130, as shells have it.
+    """
     asked = parser().parse_args(arguments)
     logging.basicConfig(level=logging.ERROR)
     warnings.simplefilter("ignore")
@@ -45,6 +50,10 @@ def main(arguments: Sequence[str] | None = None) -> None:
     except OSError as error:
         where = f"{error.filename}: " if error.filename else ""
         sys.exit(f"error: {where}{error.strerror or error}")
+    except (MemoryError, BrokenProcessPool):  # the system kills a process that asks for too much
+        sys.exit("error: the memory is too short: end other programs, or plan with --jobs 1")
+    except KeyboardInterrupt:
+        sys.exit(130)
 
 
 if __name__ == "__main__":

@@ -63,9 +63,23 @@ CASES = [
     asked("an unknown option", (*ASK, "--colour"), "--colour"),
     asked("neither picture nor mesh", ("predict", "--task", "use"), "--image --object is required"),
     asked("an unknown unit", (*ASK, "--unit", "ell"), "--unit", "'ell'"),
+    asked("a unit for a picture", (*ASK, "--unit", "mm"), "--unit: mm: is for a mesh"),
     asked("a picture that is not there", ("predict", "--image", "no.png"), "no.png: no such file"),
     asked("another folder", (*ASK, "--folder", "no"), "no/params.yaml", "--folder"),
     asked("a drawing that is no PNG", (*ASK, "--picture", "cup.jpg"), "cup.jpg", ".png"),
+    asked("a drawing over the picture", (*ASK, "--picture", "cup.png"), "cup.png: is one of the"),
+    asked(
+        "a drawing among the pictures",
+        ("predict", "--image", ".", "--task", "use", "--picture", "answer.png"),
+        "answer.png: lies among the pictures",
+    ),
+    Case(
+        "command",
+        "a bad picture in a folder",
+        FOLDER | {"cups/a.png": WHOLE, "cups/b.png": "no picture"},
+        command("predict", "--image", "cups", "--task", "use"),
+        ("cups/b.png: not a picture",),
+    ),
     asked(
         "a drawing where none can be made",
         (*ASK, "--picture", "/proc/cup.png"),

@@ -12,11 +12,15 @@ from case import PARAMS, Case, Content, script
 
 BOX = trimesh.creation.box((0.05, 0.05, 0.05))
 VERTICES, FACES = BOX.vertices.tolist(), (BOX.faces + 1).tolist()
+CUPBOARD = trimesh.creation.box((0.6, 0.6, 1.0)).export(file_type="stl")
 TEXT_STL = BOX.export(file_type="stl_ascii").encode()
 TEXT_PLY = BOX.export(file_type="ply", encoding="ascii")
 STL, PLY, GLB = (BOX.export(file_type=kind) for kind in ("stl", "ply", "glb"))
 # The first of two chunks alone: its JSON names accessors, whose data are not there.
 GLB_WITHOUT_DATA = GLB[: 20 + int.from_bytes(GLB[12:16], "little")]
+# The box's indices come first in its data; the last one is another.
+LAST_INDEX = len(GLB_WITHOUT_DATA) + 8 + 4 * (3 * len(FACES) - 1)
+GLB_WITH_99 = GLB[:LAST_INDEX] + struct.pack("<I", 99) + GLB[LAST_INDEX + 4 :]
 
 
 def mesh(what: str, name: str, content: Content, *names: str, unit: str = "m") -> Case:
@@ -46,6 +50,13 @@ def first(x: object) -> list[list[object]]:
 def stl_with(number: float) -> bytes:
     """The box as STL with another first coordinate."""
     return STL[:96] + struct.pack("<f", number) + STL[100:]
+
+
+def ply_with(corner: int) -> bytes:
+    """The box as PLY in text, whose last face has this corner."""
+    lines = TEXT_PLY.decode().rstrip().split("\n")
+    numbers = lines[-1].split()
+    return "\n".join([*lines[:-1], " ".join([*numbers[:-1], str(corner)])]).encode() + b"\n"
 
 
 def huge_stl(path: Path) -> None:
@@ -103,11 +114,29 @@ CASES = [
         obj(VERTICES, [*FACES, (1, 2, 99)]),
         "cannot be read",
     ),
+    mesh(
+        "a face of a vertex that a PLY does not hold",
+        "cup.ply",
+        ply_with(99),
+        "face: ",
+        "99",
+        "holds 8",
+    ),
+    mesh("a face of a negative vertex", "cup.ply", ply_with(-1), "face: ", "-1", "holds 8"),
+    mesh(
+        "a face of a vertex that a GLB does not hold",
+        "cup.glb",
+        GLB_WITH_99,
+        "face: ",
+        "99",
+        "holds 8",
+    ),
     mesh("one face", "cup.obj", obj(VERTICES, FACES[:1]), "open shell without volume"),
     mesh("points without faces", "cup.obj", obj(VERTICES, []), "no faces"),
     mesh("flat", "cup.obj", obj([(x, y, 0) for x, y, _ in VERTICES], FACES), "no volume"),
     mesh("all vertices in one place", "cup.obj", obj([(0, 0, 0)] * 8, FACES), "unit"),
     mesh("half a box", "cup.obj", obj(VERTICES, FACES[:6]), "open shell without volume"),
+    mesh("a cupboard", "cup.stl", CUPBOARD, "fills 0.6 x 0.6 x 1 m", "0.125 m3"),
     mesh("a wrong unit", "cup.stl", STL, "unit", "5e-05 m", "m would fit", unit="mm"),
     mesh("ten million faces", "cup.stl", huge_stl, "500 MB", "allowed are 250"),
     mesh("more faces than allowed", "cup.ply", fine_ply, "faces, allowed are 1000000"),

@@ -40,6 +40,8 @@ def picture(what: str, content: Content, *names: str, name: str = "cup.png") -> 
     return Case("picture", what, files, call, (name, *names))
 
 
+STILL = Image.fromarray(NOISE)
+TWO = {"save_all": True, "append_images": [Image.fromarray(NOISE[::-1])]}
 WHOLE = encoded(Image.fromarray(NOISE))
 CASES = [
     picture("empty", b"", "not a picture"),
@@ -49,6 +51,8 @@ CASES = [
     picture("too small", encoded(Image.new("RGB", (1, 1))), "1 x 1 pixels", "needs 32"),
     picture("too large", encoded(Image.new("1", (20_000, 10_000))), "110 million pixels at most"),
     picture("an alpha channel", encoded(Image.fromarray(NOISE).convert("RGBA")), "alpha channel"),
+    picture("an animation", encoded(STILL, "gif", **TWO), "several pictures", name="cup.gif"),
+    picture("several pages", encoded(STILL, "tiff", **TWO), "several pictures", name="cup.tif"),
     picture(
         "16 bits a channel",
         encoded(Image.fromarray(NOISE[..., 0].astype(np.uint16) * 256)),

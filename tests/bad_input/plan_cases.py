@@ -2,11 +2,20 @@
 
 from __future__ import annotations
 
-from case import Case, Content
+import trimesh
+import yaml
+from case import PARAMS, Case, Content
 from command_cases import FOLDER
 from map_cases import ply, spread
 from mesh_cases import STL, TEXT_PLY
 from picture_cases import command
+
+from grasptypes.params import merge
+
+# A cube that no hand spans, and parameters that make little work of it.
+HALL = trimesh.creation.box((0.9, 0.9, 0.9)).export(file_type="stl")
+RESOLUTION = {"resolution": {"grid_spacing_m": 0.01, "surface_edge_m": 0.02}}
+COARSE = yaml.safe_dump(merge(PARAMS, {"objects": RESOLUTION}))
 
 
 def planned(what: str, changes: dict[str, str], *names: str, **more: Content) -> Case:
@@ -23,11 +32,16 @@ CASES = [
     planned("an unknown type", {"--type": "Hug"}, "--type: Hug", "Large Wrap, Medium Wrap"),
     planned("Invalid for a type", {"--type": "Invalid"}, "--type: Invalid", "Precision"),
     planned("no session", {"--sessions": "0"}, "--sessions", "whole number from 1 up"),
-    planned("a mass of nothing", {"--mass-kg": "0"}, "--mass-kg", "not above 0"),
+    planned("a mass of nothing", {"--mass-kg": "0"}, "--mass-kg: 0: ", "0.001 to 6 kg"),
+    planned("a mass in grams", {"--mass-kg": "350"}, "--mass-kg: 350: ", "0.001 to 6 kg"),
+    planned("a mass of NaN", {"--mass-kg": "nan"}, "--mass-kg: nan: ", "0.001 to 6 kg"),
     planned("a mass that is no number", {"--mass-kg": "abc"}, "--mass-kg", "abc is not a number"),
     planned("a mesh that is not there", {"--object": "no.stl"}, "no.stl: no such file"),
     planned("a file that is no mesh", {"--object": "note.txt"}, "note.txt", ".stl, .obj"),
     planned("a wrong unit", {"--unit": "mm"}, "cup.stl: unit", "unit: m"),
+    planned("what no hand can hold", {"--object": "hall.stl", "--sessions": "1"},
+            "hall.stl: no hand can hold it anywhere with the grips pinch", "--type", "0.9 m long",
+            hall_stl=HALL, params_yaml=COARSE),
     planned("a map that is not there", {"--contact-map": "no.ply"}, "no.ply: no such file"),
     planned("a map that is no PLY", {"--contact-map": "note.txt"}, "note.txt: is no contact map"),
     planned("a map without colours", {"--contact-map": "grey.ply"}, "grey.ply: has no colour",
@@ -36,5 +50,6 @@ CASES = [
             far_ply=ply(spread(20, 200), scale=9.0)),
     planned("the current folder", {"--output": "."}, ".: is the current folder"),
     planned("a folder that is not empty", {"--output": "full"}, "full: is there already"),
+    planned("a name that is too long", {"--output": "x" * 250}, "the name is too long"),
     planned("a file for a folder", {"--output": "note.txt/out"}, "cannot be made: note.txt is no"),
 ]  # fmt: skip

@@ -1,8 +1,10 @@
-"""What the commands share: the folder whose parameters and models they use."""
+"""What the commands share: the folder whose parameters and models they use, names, targets."""
 
 from __future__ import annotations
 
 import argparse
+import errno
+import os
 import tempfile
 from pathlib import Path
 from typing import Any
@@ -12,6 +14,18 @@ from grasptypes.params import load_params
 
 SCHEMA = "workflow/schemas/params.schema.yaml"
 PARAMS = "params.yaml"
+# Draws for a user's mesh depend on this word, so that its file's name does not change the answer.
+MESH_WORD = "mesh"
+
+
+def printable(name: str) -> str:
+    """A file's name as it can be shown and written: "?" for what is no visible character."""
+    return "".join(letter if letter.isprintable() else "?" for letter in name)
+
+
+def staging_name(name: str) -> str:
+    """What a file or folder is called until it is finished."""
+    return f".{name}.{os.getpid()}.tmp"
 
 
 def add_folder(parser: argparse.ArgumentParser) -> None:
@@ -52,12 +66,16 @@ def check_place(path: Path) -> None:
     """Refuse a file or folder that could not be made, by a try that leaves nothing behind.
 
     Raises:
-        InputError: the nearest folder above it that is there cannot be written.
+        InputError: the nearest folder above it that is there cannot be written, or a name is
+            too long.
     """
-    above = next(parent for parent in path.parents if parent.exists())
+    above = Path()
     try:
-        with tempfile.TemporaryFile(dir=above):
-            pass
+        above = next(parent for parent in path.parents if parent.exists())
+        with tempfile.TemporaryDirectory(dir=above) as trial:
+            for name in path.parts[len(above.parts) :]:
+                Path(trial, staging_name(name)).mkdir(exist_ok=True)
     except OSError as error:
-        message = f"cannot be made: {above} is no folder to write to"
-        raise InputError(path, "", message) from error
+        long = error.errno == errno.ENAMETOOLONG
+        reason = "the name is too long" if long else f"{above} is no folder to write to"
+        raise InputError(path, "", f"cannot be made: {reason}") from error

@@ -96,6 +96,7 @@ def _read(path: str | Path, metres: float, limits: ImportLimits) -> dict[str, tr
     check_faces(path, geometries, limits)
     for mesh in geometries.values():
         check_counts(path, mesh)
+        _check_corners(path, mesh)
         if not np.isfinite(mesh.vertices).all():
             bad = int((~np.isfinite(mesh.vertices).all(axis=1)).sum())
             raise InputError(path, "", f"{bad} vertices are not finite numbers (NaN or infinite)")
@@ -103,6 +104,15 @@ def _read(path: str | Path, metres: float, limits: ImportLimits) -> dict[str, tr
     if len(geometries) == 1:
         return {"body": next(iter(geometries.values()))}
     return geometries
+
+
+def _check_corners(path: Path, mesh: trimesh.Trimesh) -> None:
+    """Refuse faces of vertices that are not there; raises InputError."""
+    count = len(mesh.vertices)
+    missing = mesh.faces[(mesh.faces < 0) | (mesh.faces >= count)]
+    if len(missing):
+        message = f"a face names vertex {missing[0]}, but the file holds {count}, numbered from 0"
+        raise InputError(path, "face", message)
 
 
 def _placed(scene: trimesh.Scene) -> dict[str, trimesh.Trimesh]:

@@ -21,6 +21,7 @@ class ImportLimits:
 
     Attributes:
         min_size_m, max_size_m: allowed longest extent after unit and scale.
+        max_box_m3: allowed volume of the bounding box, which the distance grid fills.
         rebuild_cells: cells along the longest extent when a surface is rebuilt.
         max_open_share: share of the enclosed space whose winding number is far from whole,
             above which a mesh counts as an open shell.
@@ -31,6 +32,7 @@ class ImportLimits:
 
     min_size_m: float
     max_size_m: float
+    max_box_m3: float
     rebuild_cells: int
     max_open_share: float
     max_faces: int
@@ -81,7 +83,8 @@ def check_size(
 ) -> None:
     """Refuse what no hand could hold, and name the unit that would fit; raises InputError."""
     bounds = np.array([mesh.bounds for mesh in meshes.values()])
-    size_m = scale * float((bounds[:, 1].max(axis=0) - bounds[:, 0].min(axis=0)).max())
+    extents_m = scale * (bounds[:, 1].max(axis=0) - bounds[:, 0].min(axis=0))
+    size_m = float(extents_m.max())
     if not limits.min_size_m <= size_m <= limits.max_size_m:
         fits = [
             other
@@ -95,6 +98,10 @@ def check_size(
             f"the object would be {size_m:.4g} m long with unit {unit}, allowed are "
             f"{limits.min_size_m} to {limits.max_size_m} m{advice}",
         )
+    if extents_m.prod() > limits.max_box_m3:
+        box = " x ".join(f"{extent:.2g}" for extent in extents_m)
+        message = f"the object fills {box} m, allowed are boxes of {limits.max_box_m3:g} m3"
+        raise InputError(path, "", message)
 
 
 def check_volume(path: str | Path, volume_m3: float, meshes: Meshes, limits: ImportLimits) -> None:

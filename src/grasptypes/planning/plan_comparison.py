@@ -71,7 +71,9 @@ def outcome(case: Case) -> dict[str, Any]:
     shop = case.workshop
     types = GRASP_TYPES[:-1] if case.choice == ANY else case.types[case.choice]
     grips = grips_of(types)
-    contacts = plan_contacts(shop.folder, None, grips, shop.name, shop.seed, case.contact_params)
+    contacts = plan_contacts(
+        shop.folder, None, grips, shop.name, shop.seed, case.contact_params, shop.name[0]
+    )
     planned = plan(shop, contacts, types, jobs=1, tell=lambda line: None)
     return {
         "object": shop.name[0],

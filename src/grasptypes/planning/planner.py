@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import signal
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass, replace
 from functools import partial
-from multiprocessing import get_context
+from multiprocessing import active_children, get_context
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -19,6 +20,7 @@ from grasptypes.labels.dataset import label_grasps
 from grasptypes.labels.grasp_type import Thresholds
 from grasptypes.objects.distance_grid import DistanceGrid
 from grasptypes.objects.object_files import COLLISION, DISTANCE_GRID, PROPERTIES
+from grasptypes.planning.plan_contacts import PlanContacts
 from grasptypes.seeds import seed
 from grasptypes.synthesis.holding import PhysicsSettings, read_body
 from grasptypes.synthesis.physics import physics
@@ -37,6 +39,7 @@ class Workshop:
         name: object and task.
         seed: part of the key of every draw.
         params: the whole of params.yaml.
+        word: stands for the object in the keys of all draws; None: its name does.
     """
 
     folder: Path
@@ -44,6 +47,12 @@ class Workshop:
     name: tuple[str, str]
     seed: int
     params: Mapping[str, Any]
+    word: str | None = None
+
+    @property
+    def drawn(self) -> tuple[str, str]:
+        """Object and task in the keys of all draws."""
+        return self.word or self.name[0], self.name[1]
 
 
 class Planned(NamedTuple):
@@ -58,25 +67,25 @@ class Planned(NamedTuple):
 
 def plan(
     workshop: Workshop,
-    contact_map: ContactMap,
+    contacts: PlanContacts,
     types: Sequence[str],
     jobs: int,
     tell: Callable[[str], None],
 ) -> Planned:
-    """A grasp for each session of the contact map, ranked; the same for any number of jobs.
+    """A grasp for each session of the contacts, ranked; the same for any number of jobs.
 
     Args:
         types: wanted grasp types; grasps of these rank before all others.
         jobs: processes at work.
         tell: takes a line on every session.
     """
-    count = len(contact_map.sessions)
-    work = partial(_search, workshop, contact_map)
+    work, last = partial(_search, workshop, contacts), contacts.numbers[-1]
     found = []
-    for number, attempts in enumerate(_each(work, count, jobs), start=1):
+    for attempts in _each(work, len(contacts.numbers), jobs):
         found.append(attempts)
+        number, grip = attempts.session.iloc[0], attempts.grip.iloc[0]
         outcome = "holds" if attempts.valid.any() else attempts.reason.iloc[0]
-        tell(f"session {number} of {count} ({attempts.grip.iloc[0]}): {outcome}")
+        tell(f"session {number} of {last} ({grip}): {outcome}")
     labelled = _labelled(workshop, pd.concat(found, ignore_index=True))
     labelled = choose(labelled, types)
     return Planned(labelled, ranked(labelled[labelled.chosen], types))
@@ -111,21 +120,36 @@ def ranked(labelled: pd.DataFrame, types: Sequence[str]) -> pd.DataFrame:
 
 
 def _each(work: Callable[[int], pd.DataFrame], count: int, jobs: int) -> Iterator[pd.DataFrame]:
-    """Results for 0 to count - 1, in order and as soon as they are there."""
+    """Results for 0 to count - 1, in order and as soon as they are there.
+
+    At Ctrl-C, which the terminal sends to every process, the workers are ended without a word.
+    """
     if jobs == 1:
         yield from map(work, range(count))
         return
     # A fork would copy an open OpenGL context and torch's threads.
     with ProcessPoolExecutor(jobs, mp_context=get_context("spawn")) as pool:
-        yield from pool.map(work, range(count))
+        try:
+            # Workers start with the mask of who starts them, here all of them.
+            signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGINT])
+            try:
+                results = pool.map(work, range(count))
+            finally:
+                signal.pthread_sigmask(signal.SIG_UNBLOCK, [signal.SIGINT])
+            yield from results
+        except KeyboardInterrupt:
+            for worker in active_children():
+                worker.terminate()
+            raise
 
 
-def _search(workshop: Workshop, contact_map: ContactMap, index: int) -> pd.DataFrame:
+def _search(workshop: Workshop, contacts: PlanContacts, index: int) -> pd.DataFrame:
     """Attempts of one session, whatever sessions there are beside it, with its grip and tries."""
-    folder, params = workshop.folder, workshop.params
+    folder, params, (name, task) = workshop.folder, workshop.params, workshop.drawn
+    contact_map, number = contacts.contact_map, contacts.numbers[index]
     thing = read_thing(folder / DISTANCE_GRID, folder / PROPERTIES, contact_map)
-    session_seed = seed("plan", *workshop.name, index + 1, workshop.seed)
-    problem = Problem(*workshop.name, thing, _one(contact_map, index), session_seed)
+    session_seed = seed("plan", name, task, number, workshop.seed)
+    problem = Problem(name, task, thing, _one(contact_map, index), session_seed)
     body = read_body(folder / COLLISION, folder / PROPERTIES)
     synthesis, test = params["synthesis"], PhysicsSettings(**params["physics"]["test"])
     with physics(workshop.urdf, body, test) as world:
@@ -137,7 +161,7 @@ def _search(workshop: Workshop, contact_map: ContactMap, index: int) -> pd.DataF
             ValiditySettings(**params["physics"]["validity"]),
         )
     added = {"grip": str(contact_map.grip[index]), "tries": len(attempts)}
-    return attempts.assign(session=index + 1, **added)
+    return attempts.assign(object=workshop.name[0], session=number, **added)
 
 
 def _one(contact_map: ContactMap, index: int) -> ContactMap:

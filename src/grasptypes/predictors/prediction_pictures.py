@@ -13,6 +13,7 @@ from grasptypes.predictors.predictor_files import Card
 
 CHOSEN, OTHER = "#2a6f97", "#b8c4cc"
 ROW_IN = 2.6
+NAME_LENGTH = 40  # letters that fit above a picture
 LABEL_ROOM = 1.18  # right end of the bars' axis, so that a bar of 1 has room for its number
 
 
@@ -26,10 +27,10 @@ def draw_answers(
     for (shown, bars), picture, answer in zip(panels, pictures, answers, strict=True):
         shown.imshow(picture)
         shown.set_axis_off()
-        shown.set_title(answer.name, fontsize="small")
+        shown.set_title(_shortened(answer.name), fontsize="small", parse_math=False)
         _draw_bars(bars, answer, card)
     panels[-1][1].set_xlabel("probability; chosen types are dark", fontsize="small")
-    figure.suptitle(title, fontsize="small")
+    figure.suptitle(title, fontsize="small", parse_math=False)
     return figure
 
 
@@ -40,6 +41,12 @@ def montage(views: np.ndarray) -> np.ndarray:
     tiles = np.concatenate([views, empty])
     rows = [np.hstack(list(tiles[k : k + columns])) for k in range(0, len(tiles), columns)]
     return np.vstack(rows)
+
+
+def _shortened(name: str) -> str:
+    """A name without its middle, if it is long."""
+    half = NAME_LENGTH // 2
+    return name if len(name) <= NAME_LENGTH else f"{name[:half]}…{name[1 - half :]}"
 
 
 def _draw_bars(axes: Axes, answer: Answer, card: Card) -> None:

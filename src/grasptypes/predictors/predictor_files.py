@@ -19,7 +19,7 @@ from grasptypes.predictors.backbone import Backbone, load_backbone
 from grasptypes.predictors.features import shift_colours
 from grasptypes.predictors.finetuning import Network
 from grasptypes.predictors.predictor import VARIANTS, Architecture, Heads
-from grasptypes.predictors.weights import Weights
+from grasptypes.predictors.weights import WEIGHTS_VARIABLE, Weights
 
 FROZEN = "none"
 
@@ -122,12 +122,13 @@ def load_predictor(tensors: str | Path, described: str | Path, weights: Weights)
         InputError: a damaged file, or other weights.
     """
     card = read_card(described)
-    if (card.backbone, card.weights) != (weights.backbone, weights.name):
+    same = card.weights.endswith(f"({weights.sha256[:8]})")  # whatever the file's name
+    if card.backbone != weights.backbone or not same:
         raise InputError(
             described,
             "weights",
             f"trained on {card.backbone}, {card.weights}; "
-            f"here is {weights.backbone}, {weights.name}",
+            f"here is {weights.backbone}, {weights.name}; set {WEIGHTS_VARIABLE} to that file",
         )
     backbone = load_backbone(weights, card.input_px)
     if card.architecture.inputs != backbone.kind.features:

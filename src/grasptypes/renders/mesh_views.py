@@ -17,9 +17,13 @@ from grasptypes.renders.scene import load_parts
 
 
 def mesh_views(
-    own: Mapping[str, Any], objects: Mapping[str, Any], renders: Mapping[str, Any], count: int
+    own: Mapping[str, Any],
+    objects: Mapping[str, Any],
+    renders: Mapping[str, Any],
+    count: int,
+    key: str,
 ) -> np.ndarray:
-    """Views (count, S, S, 3) uint8 of a mesh from random sides, which its file name decides.
+    """Views (count, S, S, 3) uint8 of a mesh from random sides, which `key` decides.
 
     Args:
         own: a block `objects.own.<name>`; mass and density do not show.
@@ -33,7 +37,7 @@ def mesh_views(
     with tempfile.TemporaryDirectory() as folder:
         visual = Path(folder) / "visual.glb"
         visual.write_bytes(glb)
-        return views(visual, renders, count, Path(own["file"]).stem)
+        return views(visual, renders, count, key)
 
 
 def views(visual: str | Path, renders: Mapping[str, Any], count: int, key: str) -> np.ndarray:

@@ -5,6 +5,8 @@ from __future__ import annotations
 import struct
 import warnings
 import zlib
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import NamedTuple
 
@@ -32,7 +34,7 @@ class PhotoLimits(NamedTuple):
 
 
 def photo_files(path: str | Path) -> list[Path]:
-    """The file, or the pictures in a folder in the order of their names.
+    """The file, or the pictures in a folder in the order of their names; hidden ones are none.
 
     Raises:
         InputError: there is nothing there.
@@ -42,10 +44,20 @@ def photo_files(path: str | Path) -> list[Path]:
         raise InputError(path, "", "no such file or folder")
     if path.is_file():
         return [path]
-    files = sorted(file for file in path.iterdir() if file.suffix.lower() in SUFFIXES)
+    files = sorted(
+        file
+        for file in path.iterdir()
+        if file.suffix.lower() in SUFFIXES and not file.name.startswith(".") and file.is_file()
+    )
     if not files:
         raise InputError(path, "", f"holds no picture ({', '.join(SUFFIXES)})")
     return files
+
+
+def check_photo(path: str | Path, limits: PhotoLimits) -> None:
+    """Look at a picture's header alone; raises InputError as :func:`read_photo` does."""
+    with _opened(path, limits):
+        pass
 
 
 def read_photo(path: str | Path, limits: PhotoLimits) -> np.ndarray:
@@ -55,17 +67,27 @@ def read_photo(path: str | Path, limits: PhotoLimits) -> np.ndarray:
     and to squeeze a picture would change the object's proportions.
 
     Raises:
-        InputError: not a picture, a damaged, too small or too large one, or one with an alpha
-            channel: what lies behind it is unknown, and a made-up ground would be guesswork.
+        InputError: not a picture, a damaged, too small or too large one, several in one file, or
+            one with an alpha channel: what lies behind it is unknown, and a made-up ground would
+            be guesswork.
     """
+    with _opened(path, limits) as opened:
+        opened.draft("RGB", (limits.reduce_px, limits.reduce_px))
+        opened.load()
+        upright = ImageOps.exif_transpose(opened).convert("RGB")
+    upright.thumbnail((limits.reduce_px, limits.reduce_px))
+    return padded(np.asarray(upright))
+
+
+@contextmanager
+def _opened(path: str | Path, limits: PhotoLimits) -> Iterator[Image.Image]:
+    """A picture whose header has been looked at; what goes wrong with it becomes an InputError."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # the size is checked below
         try:
             with Image.open(path, formats=FORMATS) as opened:
                 _check(path, opened, limits)
-                opened.draft("RGB", (limits.reduce_px, limits.reduce_px))
-                opened.load()
-                upright = ImageOps.exif_transpose(opened).convert("RGB")
+                yield opened
         except InputError:
             raise
         except Image.DecompressionBombError as error:
@@ -74,8 +96,6 @@ def read_photo(path: str | Path, limits: PhotoLimits) -> np.ndarray:
             raise InputError(path, "", f"not a picture ({', '.join(FORMATS)})") from error
         except _BROKEN as error:
             raise InputError(path, "", f"cannot be read as a picture: {error}") from error
-    upright.thumbnail((limits.reduce_px, limits.reduce_px))
-    return padded(np.asarray(upright))
 
 
 def padded(picture: np.ndarray) -> np.ndarray:
@@ -100,6 +120,10 @@ def _check(path: str | Path, picture: Image.Image, limits: PhotoLimits) -> None:
         raise InputError(path, "", message)
     if width * height > limits.max_pixels:
         raise InputError(path, "", f"is {width} x {height} pixels; it {_too_large(limits)}")
+    # A phone's JPEG may carry further pictures (MPO), of which the first is the photograph.
+    if picture.format != "MPO" and getattr(picture, "is_animated", False):
+        message = "holds several pictures (an animation, or pages): save the one that is meant"
+        raise InputError(path, "", message)
     if picture.has_transparency_data:
         message = (
             "has an alpha channel: save it without one, on the ground it is to be judged on "

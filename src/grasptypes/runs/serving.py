@@ -15,6 +15,10 @@ from grasptypes.errors import InputError
 from grasptypes.predictors.metrics import softmax
 from grasptypes.predictors.predictor_files import load_predictor, read_card
 from grasptypes.predictors.weights import weights_file
+from grasptypes.renders.photos import padded
+
+# `predict.photos.min_px` of params.yaml, which does not travel with the model.
+MIN_PX = 32
 
 
 class GraspTypePredictor(PythonModel):
@@ -33,7 +37,7 @@ class GraspTypePredictor(PythonModel):
         model_input,
         params: dict[str, Any] | None = None,
     ) -> dict[str, np.ndarray]:
-        """Softmax and sigmoid of each picture's logits.
+        """Softmax and sigmoid of each picture's logits; pictures are padded to squares.
 
         Args:
             model_input: ``image`` (N, H, W, 3) uint8 and ``task`` (N,) names.
@@ -42,7 +46,8 @@ class GraspTypePredictor(PythonModel):
             ``probability`` and ``sigmoid``, (N, types) float32 each.
 
         Raises:
-            MlflowException: an unknown task, or not one task a picture.
+            MlflowException: an unknown task, not one task a picture, or pictures that are too
+                small or have values from 0 to 1.
         """
         pictures = np.asarray(model_input["image"], dtype=np.uint8)
         asked = np.asarray(model_input["task"]).astype(str).reshape(-1)
@@ -52,6 +57,13 @@ class GraspTypePredictor(PythonModel):
             raise _refusal(f"{len(pictures)} images, but {len(asked)} tasks: one each is needed")
         if pictures.ndim != 4 or min(pictures.shape) == 0:
             raise _refusal(f"image has shape {pictures.shape} instead of (N, height, width, 3)")
+        if min(pictures.shape[1:3]) < MIN_PX:
+            size = f"{pictures.shape[2]} x {pictures.shape[1]}"
+            raise _refusal(f"image is {size} pixels; each side needs {MIN_PX}")
+        # MLflow has cut such values to 0 and 1 by now: nearly all of them to 0.
+        if pictures.max(axis=(1, 2, 3)).min() <= 1:
+            raise _refusal("image has no value above 1: values from 0 to 255 are needed")
+        pictures = np.stack([padded(picture) for picture in pictures])
         for task in sorted(set(asked)):
             try:
                 logits[asked == task] = self._predictor.logits(pictures[asked == task], task)

@@ -1,13 +1,14 @@
 """What commands refuse before they compute anything."""
 
 import shutil
+from concurrent.futures.process import BrokenProcessPool
 from pathlib import Path
 
 import pytest
 
 from grasptypes.__main__ import main
 from grasptypes.commands import plan, predict
-from grasptypes.commands.settings import check_target, folder_params
+from grasptypes.commands.settings import check_place, check_target, folder_params
 from grasptypes.errors import InputError
 
 
@@ -45,6 +46,41 @@ def test_a_disk_that_fills_up_meanwhile_costs_one_line(monkeypatch):
     with pytest.raises(SystemExit) as end:
         main(["predict", "--image", "cup.png"])
     assert str(end.value) == "error: No space left on device"
+
+
+@pytest.mark.parametrize(
+    ("error", "status"),
+    [
+        (MemoryError(), "error: the memory is too short"),
+        (BrokenProcessPool(), "error: the memory is too short"),
+        (KeyboardInterrupt(), "130"),
+    ],
+)
+def test_a_command_that_is_cut_off_ends_without_a_trace(monkeypatch, error, status):
+    def run(_):
+        raise error
+
+    monkeypatch.setattr(predict, "run", run)
+    with pytest.raises(SystemExit) as end:
+        main(["predict", "--image", "cup.png"])
+    assert str(end.value.code).startswith(status)
+
+
+def test_other_errors_of_a_command_are_not_swallowed(monkeypatch):
+    def run(_):
+        raise RuntimeError("a mistake of ours")
+
+    monkeypatch.setattr(predict, "run", run)
+    with pytest.raises(RuntimeError, match="ours"):
+        main(["predict", "--image", "cup.png"])
+
+
+def test_names_that_are_too_long_are_found_at_once(tmp_path):
+    for name in ("x" * 250, "new/" + "x" * 300, "x" * 300 + "/new"):
+        with pytest.raises(InputError, match="the name is too long"):
+            check_place(tmp_path / name)
+    check_place(tmp_path / "x" / "x" / "x")
+    assert list(tmp_path.iterdir()) == []
 
 
 def test_a_folder_of_plans_that_cannot_be_copied_is_named(tmp_path):

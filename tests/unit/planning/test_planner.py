@@ -11,11 +11,14 @@ from learning import ROOT, small_checkout
 from PIL import Image
 
 from grasptypes.__main__ import main
-from grasptypes.commands.plan import _prepare
+from grasptypes.commands.plan import TYPES, _prepare
+from grasptypes.contact_maps.measured_contacts import draw_measured_session
+from grasptypes.errors import InputError
 from grasptypes.exchange import dexgraspbench, graspit_world, multigrippergrasp
 from grasptypes.labels.grasp_type import GRASP_TYPES
 from grasptypes.labels.published import read_published
 from grasptypes.params import read_yaml
+from grasptypes.planning import plan_contacts as plan_contacts_module
 from grasptypes.planning.plan_contacts import grips_of, plan_contacts
 from grasptypes.planning.planner import choose, ranked
 from grasptypes.predictors.weights import WEIGHTS_VARIABLE
@@ -113,7 +116,7 @@ def test_the_same_again_with_two_processes_and_as_json(planned, checkout, mesh, 
         + ["--output", str(tmp_path / "again"), *asked]
     )
     shown = capsys.readouterr()
-    assert json.loads(shown.out) == json.loads((planned / "plan.json").read_text())
+    assert shown.out == (planned / "plan.json").read_text()
     assert shown.err.count("session ") == SESSIONS
     for file in sorted(path for path in planned.rglob("*") if path.is_file()):
         assert (tmp_path / "again" / file.relative_to(planned)).read_bytes() == file.read_bytes()
@@ -143,12 +146,71 @@ def test_wanted_grips_take_turns_where_it_is_warm(checkout, mesh, tmp_path):
     scan = (mesh.parent / "warm.ply", 0.001)
     grips = grips_of(["Large Wrap", "Small Wrap", "Precision"])
     assert grips == ("wrap", "pinch")
-    warm = plan_contacts(prepared, scan, grips, ("tube", "use"), 0, settings)
+    name = ("tube", "use")
+    warm = plan_contacts(prepared, scan, grips, name, 0, settings, mesh).contact_map
     assert sorted(warm.grip) == ["pinch"] * 4 + ["wrap"] * 4
-    anywhere = plan_contacts(prepared, None, grips, ("tube", "use"), 0, settings)
+    anywhere = plan_contacts(prepared, None, grips, name, 0, settings, mesh).contact_map
     height = [(m.sessions * m.points[:, 2]).sum() / m.sessions.sum() for m in (warm, anywhere)]
     assert height[0] > 0.03 > abs(height[1])
     assert (anywhere.probability == 1).all()
+
+
+@pytest.fixture
+def unlucky(monkeypatch):
+    """Numbers of sessions whose hand finds no place."""
+    numbers = set()
+
+    def draw(points, probability, key, *rest, **more):
+        if key[2] in numbers:
+            raise InputError("", "", "no place")
+        return draw_measured_session(points, probability, key, *rest, **more)
+
+    monkeypatch.setattr(plan_contacts_module, "draw_measured_session", draw)
+    return numbers
+
+
+def test_a_session_without_a_place_is_left_out_and_the_others_stay(
+    checkout, mesh, tmp_path, unlucky
+):
+    params = read_yaml(checkout / "params.yaml")
+    prepared = _prepared(mesh, params, tmp_path)
+    asked = (
+        prepared,
+        None,
+        ("wrap",),
+        ("tube", "use"),
+        0,
+        params["contact_maps"] | {"sessions": 3},
+    )
+    whole = plan_contacts(*asked, mesh)
+    assert whole.numbers == (1, 2, 3)
+    unlucky.add(2)
+    rest = plan_contacts(*asked, mesh)
+    assert rest.numbers == (1, 3)
+    np.testing.assert_array_equal(rest.contact_map.sessions, whole.contact_map.sessions[[0, 2]])
+    unlucky.update((1, 3))
+    with pytest.raises(InputError, match=r"tube\.stl: no hand can hold it anywhere.*0\.16 m long"):
+        plan_contacts(*asked, mesh)
+
+
+def test_the_plan_without_a_session_keeps_the_others(
+    planned, checkout, mesh, tmp_path, unlucky, capsys
+):
+    unlucky.add(2)
+    plan(checkout, mesh, tmp_path / "out", "--task", "use", "--type", "power_sphere")
+    assert f"left out 1 of {SESSIONS} ways of holding" in capsys.readouterr().err
+    all_tries, tries = (pd.read_csv(p / "attempts.csv") for p in (planned, tmp_path / "out"))
+    kept = all_tries[all_tries.session != 2].reset_index(drop=True)
+    pd.testing.assert_frame_equal(tries, kept)
+
+
+def test_a_file_s_name_does_not_change_the_plan(planned, checkout, mesh, tmp_path):
+    other = tmp_path / "my $cup$.stl"
+    other.write_bytes(mesh.read_bytes())
+    plan(checkout, other, tmp_path / "out", "--task", "use", "--type", "power_sphere")
+    assert (tmp_path / "out/attempts.csv").read_text() == (planned / "attempts.csv").read_text()
+    table = pd.read_csv(tmp_path / "out/grasps.csv")
+    assert set(table.Object) == {"my $cup$"}
 
 
 def _prepared(mesh, params, folder):
@@ -200,6 +262,10 @@ def test_a_predictor_that_is_missing_is_named(mesh, tmp_path, monkeypatch):
     with pytest.raises(SystemExit, match=r"predictor\.json: is not trained yet"):
         plan(root, mesh, tmp_path / "out", "--task", "use")
     assert not (tmp_path / "out").exists()
+
+
+def test_the_help_lists_all_types():
+    assert ", ".join(GRASP_TYPES[:-1]) == TYPES
 
 
 def test_all_types_have_a_grip():

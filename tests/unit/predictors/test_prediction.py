@@ -12,10 +12,11 @@ from PIL import Image
 from grasptypes.__main__ import main
 from grasptypes.errors import InputError
 from grasptypes.labels.samples import TYPES
+from grasptypes.predictors import prediction
 from grasptypes.predictors.metrics import softmax
-from grasptypes.predictors.prediction import predictor_paths
-from grasptypes.predictors.prediction_pictures import montage
-from grasptypes.predictors.predictor_files import load_predictor
+from grasptypes.predictors.prediction import Answer, predictor_paths
+from grasptypes.predictors.prediction_pictures import draw_answers, montage
+from grasptypes.predictors.predictor_files import load_predictor, read_card
 from grasptypes.predictors.weights import WEIGHTS_VARIABLE, weights_file
 
 PICTURE = np.random.default_rng(1).integers(0, 256, (64, 64, 3), dtype=np.uint8)
@@ -125,12 +126,14 @@ def test_bad_input_is_one_line_and_writes_nothing(predict, tmp_path, arguments, 
     assert sorted(tmp_path.iterdir()) == before
 
 
-def test_one_bad_picture_of_a_folder_stops_everything(predict, tmp_path):
+def test_one_bad_picture_of_a_folder_stops_everything(predict, tmp_path, monkeypatch):
     (tmp_path / "zero.png").touch()
-    out, err, status = predict("--image", tmp_path, "--model", "a", "--picture", "drawn.png")
+    monkeypatch.setattr(prediction, "open_predictor", None)  # told before it is opened
+    drawn = tmp_path / "new" / "drawn.png"
+    out, err, status = predict("--image", tmp_path, "--model", "a", "--picture", drawn)
     assert (out, status) == ("", 1)
     assert "zero.png: not a picture" in err
-    assert not (tmp_path / "drawn.png").exists()
+    assert not drawn.parent.exists()
 
 
 def test_other_weights_are_refused(predict, checkout, monkeypatch, tmp_path):
@@ -141,6 +144,15 @@ def test_other_weights_are_refused(predict, checkout, monkeypatch, tmp_path):
     _, err, status = predict("--image", "photo.png", "--task", "use")
     assert status == 1
     assert "trained on mobilenet_v2, random.pth" in err
+    assert f"set {WEIGHTS_VARIABLE} to that file" in err
+
+
+def test_weights_may_have_another_name(predict, checkout, monkeypatch, tmp_path):
+    asked = ("--image", "photo.png", "--task", "use")
+    said = predict(*asked)[0]
+    (tmp_path / "renamed.pth").write_bytes((checkout / "random.pth").read_bytes())
+    monkeypatch.setenv(WEIGHTS_VARIABLE, str(tmp_path / "renamed.pth"))
+    assert predict(*asked) == (said, "", 0)
 
 
 def test_a_folder_without_parameters_is_named(capsys, tmp_path):
@@ -154,6 +166,41 @@ def test_models_are_found_by_row_or_name(checkout):
     )
     with pytest.raises(InputError, match="is not trained yet"):
         predictor_paths(checkout, "published", "b")
+
+
+def test_names_are_no_mathematics_and_have_room(checkout):
+    card = read_card(checkout / "models/simulated/task_vector/predictor.json")
+    even = np.full(len(TYPES), 1 / len(TYPES))
+    names = ["a $\\cup$ of $5_$.png", "x" * 100 + ".png"]
+    answers = [Answer(name, even, even) for name in names]
+    figure = draw_answers([PICTURE, PICTURE], answers, card, "title of $_$")
+    figure.canvas.draw()
+    first, _, second, _ = (axes.get_title() for axes in figure.axes)
+    assert first == names[0]
+    assert len(second) == 40
+    assert second.startswith("xxx")
+    assert second.endswith("xxx.png")
+
+
+def test_names_that_are_no_text_are_drawn_and_printed(predict, tmp_path):
+    name = "cup\udcff\x1b[31m.png"
+    (tmp_path / "cups").mkdir()
+    (tmp_path / "photo.png").rename(tmp_path / "cups" / name)
+    asked = ("--image", "cups", "--task", "use", "--picture", "drawn.png")
+    out, _, status = predict(*asked)
+    assert status == 0
+    assert "cup??[31m.png" in out.encode().decode()
+    assert predict(*asked) == (out, "", 0)
+
+
+def test_a_mesh_s_name_does_not_change_the_answer(predict, tmp_path):
+    box = trimesh.creation.box((0.06, 0.08, 0.2)).export(file_type="stl")
+    said = []
+    for name in ("box.stl", "other.stl"):
+        (tmp_path / name).write_bytes(box)
+        (answer,) = json.loads(predict("--object", name, "--task", "use", "--json")[0])["answers"]
+        said.append(answer.pop("name") and answer)
+    assert said[0] == said[1]
 
 
 def test_montage_fills_its_last_row():

@@ -5,7 +5,7 @@ import pytest
 from PIL import Image
 
 from grasptypes.errors import InputError
-from grasptypes.renders.photos import PhotoLimits, padded, photo_files, read_photo
+from grasptypes.renders.photos import PhotoLimits, check_photo, padded, photo_files, read_photo
 
 LIMITS = PhotoLimits(min_px=32, max_pixels=1_000_000, reduce_px=128)
 NOISE = np.random.default_rng(0).integers(0, 256, (64, 64, 3), dtype=np.uint8)
@@ -67,6 +67,9 @@ def _bad(folder):
     Image.new("1", (20_000, 10_000)).save(folder / "huge.png")
     (folder / "program.eps").write_text("%!PS-Adobe-3.0 EPSF-3.0\n%%BoundingBox: 0 0 64 64\n")
     (folder / "folder.png").mkdir()
+    more = {"save_all": True, "append_images": [Image.fromarray(NOISE[::-1])]}
+    for name in ("moving.gif", "moving.png", "moving.webp", "pages.tif"):
+        Image.fromarray(NOISE).save(folder / name, **more)
 
 
 @pytest.mark.parametrize(
@@ -85,6 +88,10 @@ def _bad(folder):
         ("huge.png", "1 million pixels at most"),
         ("program.eps", "not a picture"),
         ("folder.png", "cannot be read as a picture"),
+        ("moving.gif", "holds several pictures"),
+        ("moving.png", "holds several pictures"),
+        ("moving.webp", "holds several pictures"),
+        ("pages.tif", "holds several pictures"),
     ],
 )
 def test_bad_pictures_are_refused_in_one_line(tmp_path, name, expected):
@@ -97,9 +104,25 @@ def test_bad_pictures_are_refused_in_one_line(tmp_path, name, expected):
     assert "\n" not in line
 
 
+def test_a_header_is_looked_at_alone(tmp_path):
+    _bad(tmp_path)
+    check_photo(tmp_path / "truncated.png", LIMITS)
+    with pytest.raises(InputError, match="needs 32"):
+        check_photo(tmp_path / "dot.png", LIMITS)
+
+
+def test_of_a_phone_s_several_pictures_the_first_is_taken(tmp_path):
+    other = Image.fromarray(NOISE[::-1])
+    Image.fromarray(NOISE).save(tmp_path / "a.jpg", "MPO", save_all=True, append_images=[other])
+    Image.fromarray(NOISE).save(tmp_path / "b.jpg")
+    one, other = (read_photo(tmp_path / name, LIMITS) for name in ("a.jpg", "b.jpg"))
+    assert (one == other).all()
+
+
 def test_a_folder_gives_its_pictures_by_name(tmp_path):
-    for name in ("b.PNG", "a.jpg", "notes.txt"):
+    for name in ("b.PNG", "a.jpg", "notes.txt", ".c.png", "._a.jpg"):
         (tmp_path / name).touch()
+    (tmp_path / "d.png").mkdir()
     assert [file.name for file in photo_files(tmp_path)] == ["a.jpg", "b.PNG"]
     assert photo_files(tmp_path / "a.jpg") == [tmp_path / "a.jpg"]
 

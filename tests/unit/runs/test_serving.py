@@ -13,18 +13,21 @@ from pathlib import Path
 import mlflow
 import numpy as np
 import pytest
-from learning import small_checkout
+from learning import ROOT, small_checkout
 from PIL import Image
 
 import grasptypes.errors
 from grasptypes.__main__ import main
+from grasptypes.params import read_yaml
 from grasptypes.predictors.weights import WEIGHTS_VARIABLE
 from grasptypes.runs.run_records import RunRecord, serving_requirements
+from grasptypes.runs.serving import MIN_PX
 from grasptypes.runs.tracking import LoggedModel, Store, publish
 
 # Importing torch and MLflow on a busy machine.
 START_S = 90
 PICTURES = np.random.default_rng(3).integers(0, 256, (2, 48, 48, 3), dtype=np.uint8)
+WIDE = np.random.default_rng(4).integers(0, 256, (1, 40, 80, 3), dtype=np.uint8)
 TASKS = ["handoff", "wash"]
 
 
@@ -73,9 +76,9 @@ def expected(checkout):
     return np.array(answers)
 
 
-def _predicted(checkout, task):
+def _predicted(checkout, task, folder="photos"):
     written = checkout / "answers.json"
-    arguments = ["predict", "--folder", str(checkout), "--image", str(checkout / "photos")]
+    arguments = ["predict", "--folder", str(checkout), "--image", str(checkout / folder)]
     with written.open("w") as output, pytest.MonkeyPatch.context() as patch:
         patch.setattr(sys, "stdout", output)
         main([*arguments, "--task", task, "--json"])
@@ -126,8 +129,8 @@ def _await(url, server, log):
     raise AssertionError(log.read_text())
 
 
-def _request(tasks):
-    return json.dumps({"inputs": {"image": PICTURES.tolist(), "task": tasks}})
+def _request(tasks, pictures=PICTURES):
+    return json.dumps({"inputs": {"image": pictures.tolist(), "task": tasks}})
 
 
 def _post(address, content):
@@ -148,9 +151,25 @@ def test_the_server_says_what_the_command_says(address, expected):
     assert np.abs(np.diff(expected, axis=0)).max() > 0.01  # pictures and tasks that differ
 
 
+def test_a_wide_picture_is_padded_as_the_command_pads_it(address, checkout, monkeypatch):
+    monkeypatch.setenv(WEIGHTS_VARIABLE, str(checkout / "random.pth"))
+    (checkout / "wide").mkdir()
+    Image.fromarray(WIDE[0]).save(checkout / "wide/wide.png")
+    status, text = _post(address, _request(["use"], WIDE))
+    assert status == 200, text
+    served = json.loads(text)["predictions"]["probability"]
+    np.testing.assert_allclose(served, _predicted(checkout, "use", "wide"), atol=1e-5)
+
+
+def test_the_least_size_is_that_of_the_command():
+    assert read_yaml(ROOT / "params.yaml")["predict"]["photos"]["min_px"] == MIN_PX
+
+
 @pytest.mark.parametrize(
     ("content", "message"),
     [
+        (_request(["use"], WIDE[:, :20]), "image is 80 x 20 pixels; each side needs 32"),
+        (_request(TASKS, PICTURES / 255), "values from 0 to 255 are needed"),
         (_request(["use", "fly"]), "fly: unknown; allowed: use, handoff, wash"),
         (_request(["use"]), "2 images, but 1 tasks"),
         ('{"inputs": {"image": [[1, 2]], "task": ["use"]}}', "image"),
