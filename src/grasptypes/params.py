@@ -140,5 +140,7 @@ def _explain(error: jsonschema.ValidationError) -> str:
     allowed = error.schema.get("properties") if isinstance(error.schema, Mapping) else None
     if error.validator == "additionalProperties" and allowed:
         message += f"; allowed: {', '.join(sorted(allowed))}"
+    if error.validator == "not":
+        message = f"{error.instance!r} is not allowed"
     description = error.schema.get("description") if isinstance(error.schema, Mapping) else None
     return f"{message} ({description})" if description else message

@@ -14,8 +14,9 @@ from grasptypes.params import merge
 
 # A cube that no hand spans, and parameters that make little work of it.
 HALL = trimesh.creation.box((0.9, 0.9, 0.9)).export(file_type="stl")
-RESOLUTION = {"resolution": {"grid_spacing_m": 0.01, "surface_edge_m": 0.02}}
-COARSE = yaml.safe_dump(merge(PARAMS, {"objects": RESOLUTION}))
+RESOLUTION = {"grid_spacing_m": 0.01, "surface_edge_m": 0.02}
+LARGE = {"objects": {"resolution": RESOLUTION, "import": {"max_box_m3": 1.0}}}
+COARSE = yaml.safe_dump(merge(PARAMS, LARGE))
 
 
 def planned(what: str, changes: dict[str, str], *names: str, **more: Content) -> Case:
