@@ -26,6 +26,7 @@ def measure(settings: Mapping[str, Any], params: Mapping[str, Any]) -> Iterator[
     places = [folder / name for name in ("one", "other")]
     for place in places:
         copy_checkout(".", place, Path(__file__).with_name("slice.yaml"))
+        _run(settings["warm_up"], 1, place)
     run = partial(_run, settings["targets"])
     works = [partial(run, 1, places[0]), partial(run, 2, places[0]), partial(_at_once, run, places)]
     taken_s = seconds(*works, rounds=settings["rounds"], warm_up=False)
