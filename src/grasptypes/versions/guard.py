@@ -6,6 +6,7 @@ import configparser
 import fcntl
 import os
 import sys
+import tempfile
 import time
 from collections.abc import Mapping
 from pathlib import Path
@@ -54,6 +55,10 @@ def processor_features(description: Path = Path("/proc/cpuinfo")) -> set[str]:
     return {name for line in lines if line.startswith("flags") for name in line.split()[2:]}
 
 
+# What a run writes before its first job.
+ROOM_BYTES = 2**17
+
+
 class FolderLock:
     """That one process at a time computes in a folder.
 
@@ -74,14 +79,16 @@ class FolderLock:
         """Hold the lock until the process ends, or say who holds it; returns whether we do.
 
         Raises:
-            InputError: the folder cannot be written, or its file system knows no locks.
+            InputError: the folder cannot be written, is full, or its file system knows no locks.
         """
         if self.file is None:
             try:
                 self.path.parent.mkdir(exist_ok=True)
+                with tempfile.TemporaryFile(dir=self.path.parent) as trial:
+                    trial.write(bytes(ROOM_BYTES))
                 self.file = self._locked()
             except OSError as error:
-                raise InputError(self.path, "", f"cannot be locked: {error.strerror}") from error
+                raise InputError(self.path, "", f"cannot be written: {error.strerror}") from error
         return self.file is not None
 
     def _locked(self) -> IO | None:

@@ -81,7 +81,7 @@ def test_what_a_killed_run_left_is_removed(tmp_path: Path) -> None:
 
 def test_a_folder_that_takes_nothing_is_named(tmp_path: Path) -> None:
     (tmp_path / "file").touch()
-    with pytest.raises(InputError, match=r"running\.lock: cannot be locked: Not a directory"):
+    with pytest.raises(InputError, match=r"running\.lock: cannot be written: Not a directory"):
         FolderLock(tmp_path / "file" / "state").take()
 
 
