@@ -19,6 +19,7 @@ from grasptypes.exchange.records import (
     to_position_quaternion,
 )
 from grasptypes.hand import configuration, kinematics
+from grasptypes.labels.grasp_type import GRASP_TYPES
 from grasptypes.labels.published import read_published
 
 
@@ -178,7 +179,7 @@ def test_published_csv(tmp_path):
             "image": "screenshots/mug.png",
         }
     )
-    authors_columns(table).to_csv(tmp_path / "g.csv", index=False)
+    authors_columns(table, GRASP_TYPES).to_csv(tmp_path / "g.csv", index=False)
     read = read_published(tmp_path / "g.csv")
     assert read.grasp_type_index.tolist() == [6, 1, 7]
     assert read["rank"].tolist() == [1, 1, 1]
@@ -193,7 +194,7 @@ def test_the_authors_own_file(tmp_path):
         pytest.skip("GRASPTYPES_PUBLISHED_CSV is not set")
     published = read_published(Path(source))
     known = published[published.hand_configuration.notna()]
-    written = authors_columns(known.assign(rank=known["rank"] - 1))
+    written = authors_columns(known.assign(rank=known["rank"] - 1), GRASP_TYPES)
     written.to_csv(tmp_path / "g.csv", index=False)
     again = read_published(tmp_path / "g.csv")
     np.testing.assert_allclose(

@@ -4,9 +4,9 @@ from pathlib import Path
 
 from grasptypes.jobs import job
 from grasptypes.labels.agreement import TYPES
-from grasptypes.labels.distribution import DISTRIBUTION_SCHEMA, compare_distributions, describe
 from grasptypes.labels.label_pictures import draw_distribution, save_figure
 from grasptypes.labels.samples import COUNT_SCHEMA, read_samples
+from grasptypes.reports.distribution import DISTRIBUTION_SCHEMA, compare_distributions, describe
 from grasptypes.tables import read_table, write_table
 
 

@@ -9,7 +9,7 @@ from grasptypes.jobs import job
 from grasptypes.predictors.leaving_out import members_by_object
 from grasptypes.predictors.problem import read_problem
 from grasptypes.predictors.protocol import try_splits
-from grasptypes.reports.results import METRIC_SCHEMA, with_source
+from grasptypes.predictors.scoring import METRIC_SCHEMA, with_source
 from grasptypes.tables import write_table
 
 

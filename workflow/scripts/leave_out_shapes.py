@@ -14,7 +14,7 @@ from grasptypes.predictors.generalisation import TRIAL_SCHEMA, Inputs, Known, Tr
 from grasptypes.predictors.learning_inputs import read_backbone_record, read_inputs
 from grasptypes.predictors.predictor_files import FROZEN
 from grasptypes.predictors.protocol import recipe_of
-from grasptypes.reports.results import with_source
+from grasptypes.predictors.scoring import with_source
 from grasptypes.tables import write_table
 
 

@@ -5,10 +5,10 @@ from pathlib import Path
 from typing import Any
 
 from grasptypes.contact_maps.contact_map_files import read_contact_map
-from grasptypes.contact_maps.contact_pictures import contact_picture, studio_of
 from grasptypes.files import write_bytes
 from grasptypes.jobs import job
 from grasptypes.objects.object_files import read_surface
+from grasptypes.renders.contact_pictures import contact_picture, studio_of
 from grasptypes.renders.renderer import Camera, png_bytes
 from grasptypes.reports.sheets import Group, Tile, sheet
 

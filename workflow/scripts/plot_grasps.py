@@ -4,9 +4,9 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from grasptypes.contact_maps.contact_pictures import studio_of
 from grasptypes.files import write_bytes
 from grasptypes.jobs import job
+from grasptypes.renders.contact_pictures import studio_of
 from grasptypes.renders.gallery import best_grasp, grasp_picture, pose_of
 from grasptypes.renders.renderer import Camera, png_bytes
 from grasptypes.renders.scene import load_parts

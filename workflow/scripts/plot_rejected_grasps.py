@@ -6,9 +6,9 @@ from typing import Any
 
 import pandas as pd
 
-from grasptypes.contact_maps.contact_pictures import studio_of
 from grasptypes.files import write_bytes
 from grasptypes.jobs import job
+from grasptypes.renders.contact_pictures import studio_of
 from grasptypes.renders.gallery import grasp_picture, pose_of
 from grasptypes.renders.renderer import Camera, png_bytes
 from grasptypes.renders.scene import load_parts

@@ -7,7 +7,7 @@ import pandas as pd
 from grasptypes.files import write_json
 from grasptypes.jobs import job
 from grasptypes.labels.dataset import DATASET_SCHEMA
-from grasptypes.labels.distribution import DISTRIBUTION_SCHEMA
+from grasptypes.reports.distribution import DISTRIBUTION_SCHEMA
 from grasptypes.reports.scores import grasp_scores, model_scores
 from grasptypes.tables import read_table
 

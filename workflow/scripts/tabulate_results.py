@@ -7,9 +7,10 @@ import pandas as pd
 from grasptypes.files import write_text
 from grasptypes.jobs import job
 from grasptypes.labels.samples import read_samples
+from grasptypes.predictors.scoring import METRIC_SCHEMA
 from grasptypes.reports.result_plots import plot_table
 from grasptypes.reports.result_text import markdown
-from grasptypes.reports.results import METRIC_SCHEMA, RESULT_SCHEMA, tabulate
+from grasptypes.reports.results import RESULT_SCHEMA, tabulate
 from grasptypes.tables import read_table, write_table
 
 

@@ -9,8 +9,13 @@ from grasptypes.jobs import job
 from grasptypes.predictors.predictor_files import write_predictor
 from grasptypes.predictors.problem import read_problem
 from grasptypes.predictors.protocol import train_final, try_splits
+from grasptypes.predictors.scoring import (
+    CURVE_SCHEMA,
+    METRIC_SCHEMA,
+    PREDICTION_SCHEMA,
+    with_source,
+)
 from grasptypes.predictors.training import members_by_group
-from grasptypes.reports.results import CURVE_SCHEMA, METRIC_SCHEMA, PREDICTION_SCHEMA, with_source
 from grasptypes.tables import write_table
 
 

@@ -2,23 +2,24 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 import pandas as pd
 from numpy.typing import ArrayLike
 
 from grasptypes.exchange.records import PosedHands
 from grasptypes.hand import configuration, kinematics
-from grasptypes.labels.grasp_type import GRASP_TYPES
 
 
-def authors_columns(table: pd.DataFrame) -> pd.DataFrame:
+def authors_columns(table: pd.DataFrame, types: Sequence[str]) -> pd.DataFrame:
     """The authors' eleven columns.
 
     Args:
         table: columns object, task, session, grasp_type, rank (from 0), energy, pose_index,
             hand_configuration (17 numbers each) and image.
+        types: all grasp types, in the order of their indices.
     """
-    types = [GRASP_TYPES.index(name) + 1 for name in table.grasp_type]
     return pd.DataFrame(
         {
             "Index": np.arange(len(table)),
@@ -26,7 +27,7 @@ def authors_columns(table: pd.DataFrame) -> pd.DataFrame:
             "Intent": table.task.to_numpy(),
             "Session": table.session.to_numpy(),
             "GraspType": table.grasp_type.to_numpy(),
-            "GraspTypeIndex": types,
+            "GraspTypeIndex": [types.index(name) + 1 for name in table.grasp_type],
             "Rank": table["rank"].to_numpy() + 1,
             "Error": table.energy.to_numpy(),
             "PoseIndex": table.pose_index.to_numpy(),

@@ -116,7 +116,7 @@ def dataset_columns(table: pd.DataFrame) -> pd.DataFrame:
             **dict(zip(JOINT_COLUMNS, angles.T, strict=True)),
         }
     )
-    return pd.concat([authors_columns(table), ours.round(9)], axis=1)
+    return pd.concat([authors_columns(table, GRASP_TYPES), ours.round(9)], axis=1)
 
 
 def image_name(object_name: str, session: int, task: str) -> str:

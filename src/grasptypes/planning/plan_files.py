@@ -11,7 +11,6 @@ import numpy as np
 import pandas as pd
 import pandera.pandas as pa
 
-from grasptypes.contact_maps.contact_pictures import studio_of
 from grasptypes.exchange import dexgraspbench, graspit_world, multigrippergrasp
 from grasptypes.exchange.published_csv import format_configuration
 from grasptypes.exchange.records import PosedHands
@@ -21,6 +20,7 @@ from grasptypes.labels.dataset import DATASET_SCHEMA, VALID, dataset_columns
 from grasptypes.labels.grasp_type import GRASP_TYPES
 from grasptypes.objects.object_files import COLLISION, PROPERTIES, VISUAL
 from grasptypes.planning.planner import Planned
+from grasptypes.renders.contact_pictures import studio_of
 from grasptypes.renders.gallery import grasp_picture, pose_of
 from grasptypes.renders.renderer import Camera, png_bytes
 from grasptypes.renders.scene import load_parts

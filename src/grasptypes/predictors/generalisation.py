@@ -15,7 +15,7 @@ from grasptypes.predictors.examples import Examples, assemble
 from grasptypes.predictors.leaving_out import members_by_object
 from grasptypes.predictors.predictor import VARIANTS
 from grasptypes.predictors.protocol import Recipe, try_splits
-from grasptypes.reports.results import METRIC_SCHEMA, SHORT
+from grasptypes.predictors.scoring import METRIC_SCHEMA, SHORT
 
 Inputs = dict[str, dict[str, np.ndarray]]
 
@@ -94,7 +94,7 @@ def try_trial(
         seeds, seed: repetitions, and the workflow's number.
 
     Returns:
-        one row an object and repetition, as :func:`grasptypes.reports.results.score` gives them.
+        one row an object and repetition, as :func:`grasptypes.predictors.scoring.score` gives them.
     """
     examples = trial_examples(known, model, trial)
     index = examples.index

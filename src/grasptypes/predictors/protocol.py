@@ -14,8 +14,8 @@ from grasptypes.predictors.examples import Examples
 from grasptypes.predictors.finetuning import FineTuning, fine_tune, predict_pictures
 from grasptypes.predictors.predictor import Heads
 from grasptypes.predictors.predictor_files import FROZEN
+from grasptypes.predictors.scoring import curve_table, score
 from grasptypes.predictors.training import Member, Schedule, fit, predict
-from grasptypes.reports.results import curve_table, score
 
 
 @dataclass(frozen=True)
@@ -47,7 +47,7 @@ def recipe_of(settings: Mapping[str, Any]) -> Recipe:
 
 @dataclass(frozen=True)
 class Outcome:
-    """Tables of a set of splits; schemas are in :mod:`grasptypes.reports.results`."""
+    """Tables of a set of splits; schemas are in :mod:`grasptypes.predictors.scoring`."""
 
     metrics: pd.DataFrame
     curves: pd.DataFrame

@@ -11,9 +11,9 @@ import pandas as pd
 import trimesh
 from numpy.typing import ArrayLike, NDArray
 
-from grasptypes.contact_maps.contact_pictures import look_at
 from grasptypes.hand import configuration, kinematics
 from grasptypes.hand.visuals import MATERIALS, Visual, link_visuals
+from grasptypes.renders.contact_pictures import look_at
 from grasptypes.renders.gallery_views import best_azimuth, finger_points
 from grasptypes.renders.renderer import Camera
 from grasptypes.renders.scene import Part, surface_points

@@ -7,7 +7,7 @@ from collections.abc import Iterable
 import numpy as np
 import pandas as pd
 
-from grasptypes.reports.results import SHORT
+from grasptypes.predictors.scoring import SHORT
 
 
 def markdown(table: pd.DataFrame) -> str:

@@ -2,19 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping
 
-import numpy as np
 import pandas as pd
 import pandera.pandas as pa
 
-from grasptypes.labels.samples import TYPES
 from grasptypes.predictors.ceilings import ceilings, constant_of_others, labels_asked
-from grasptypes.predictors.examples import Examples
-from grasptypes.predictors.learning_inputs import BackboneRecord
-from grasptypes.predictors.metrics import METRICS, evaluate
 from grasptypes.predictors.predictor import VARIANTS
-from grasptypes.predictors.training import Member
+from grasptypes.predictors.scoring import SHORT
 
 # Table I of the paper: similarity, accuracy, precision.
 PAPER = {
@@ -29,53 +24,7 @@ LITERATURE = ("literature", 0.93)
 CONSTANT_JOINT = "best_constant_joint"
 # The constant answer fitted to the other objects, by whether joint labels are asked for.
 CONSTANT_OF_OTHERS = {False: "constant_of_others", True: "constant_of_others_joint"}
-# Beginnings of the columns of a table, by measure.
-SHORT = {
-    "angular_similarity": "sim",
-    "multilabel_accuracy": "acc",
-    "multilabel_precision": "prec",
-}
-
 _SHARE = pa.Check.in_range(0, 1)
-METRIC_SCHEMA = pa.DataFrameSchema(
-    {
-        "labels": pa.Column(str),
-        "model": pa.Column(str, pa.Check.isin(list(VARIANTS))),
-        "group": pa.Column(str),
-        "seed": pa.Column(int, pa.Check.ge(0)),
-        "n_train": pa.Column(int, pa.Check.gt(0)),
-        "n_test": pa.Column(int, pa.Check.gt(0)),
-        **{name: pa.Column(float, _SHARE) for name in METRICS},
-        "backbone": pa.Column(str),
-        "weights": pa.Column(str),
-        "finetune": pa.Column(str),
-    },
-    strict=True,
-    coerce=True,
-    unique=["labels", "model", "group", "seed"],
-)
-CURVE_SCHEMA = pa.DataFrameSchema(
-    {
-        "group": pa.Column(str),
-        "seed": pa.Column(int),
-        "epoch": pa.Column(int, pa.Check.gt(0)),
-        "train_loss": pa.Column(float),
-        "test_loss": pa.Column(float, nullable=True),
-    },
-    strict=True,
-    coerce=True,
-)
-PREDICTION_SCHEMA = pa.DataFrameSchema(
-    {
-        "object": pa.Column(str),
-        "view": pa.Column(int),
-        "task": pa.Column(str),
-        "group": pa.Column(str),
-        "seed": pa.Column(int),
-        **{f"logit_{name}": pa.Column("float32") for name in TYPES},
-    },
-    strict=True,
-)
 RESULT_SCHEMA = pa.DataFrameSchema(
     {
         "model": pa.Column(str),
@@ -97,59 +46,6 @@ RESULT_SCHEMA = pa.DataFrameSchema(
     },
     strict=True,
 )
-
-
-def score(
-    examples: Examples, members: Sequence[Member], logits: Sequence[np.ndarray]
-) -> tuple[pd.DataFrame, pd.DataFrame]:
-    """Metrics, one row a member; and predictions, one row a member and test example.
-
-    Args:
-        logits: for each member (m, types) of its test examples.
-    """
-    metrics, predictions = [], []
-    for member, outputs in zip(members, logits, strict=True):
-        name = {"group": member.group, "seed": member.seed}
-        sizes = {"n_train": len(member.train), "n_test": len(member.test)}
-        rows = member.test
-        values = evaluate(outputs, examples.labels[rows], examples.probabilities[rows])
-        metrics.append(name | sizes | values)
-        numbers = pd.DataFrame(outputs, columns=[f"logit_{t}" for t in TYPES], dtype=np.float32)
-        where = examples.index.iloc[rows][["object", "view", "task"]].reset_index(drop=True)
-        predictions.append(pd.concat([where.assign(**name), numbers], axis=1))
-    return pd.DataFrame(metrics), pd.concat(predictions, ignore_index=True)
-
-
-def with_source(
-    metrics: pd.DataFrame, name: tuple[str, str], backbone: BackboneRecord, finetune: str
-) -> pd.DataFrame:
-    """Metrics of :func:`score` as a table of :data:`METRIC_SCHEMA`: what they are made from.
-
-    Args:
-        name: label source and model.
-    """
-    source = {"labels": name[0], "model": name[1]}
-    used = {"backbone": backbone.backbone, "weights": backbone.weights, "finetune": finetune}
-    return metrics.assign(**source, **used)[list(METRIC_SCHEMA.columns)]
-
-
-def curve_table(members: Sequence[Member], curves: np.ndarray) -> pd.DataFrame:
-    """Loss curves (epochs, members, 2) as a table of :data:`CURVE_SCHEMA`."""
-    return pd.concat(
-        [
-            pd.DataFrame(
-                {
-                    "group": member.group,
-                    "seed": member.seed,
-                    "epoch": np.arange(1, len(curves) + 1),
-                    "train_loss": curves[:, number, 0],
-                    "test_loss": curves[:, number, 1],
-                }
-            )
-            for number, member in enumerate(members)
-        ],
-        ignore_index=True,
-    )
 
 
 def tabulate(
@@ -174,45 +70,25 @@ def tabulate(
     Returns:
         a table of :data:`RESULT_SCHEMA`.
     """
-    reference = ceilings(labels_asked(samples, joint=False))
-    joint_reference = ceilings(labels_asked(samples, joint=True))
-    reference.loc[CONSTANT_JOINT] = joint_reference.loc["best_constant"]
     constants = {
         joint: constant_of_others(samples, joint) for joint in CONSTANT_OF_OTHERS if unseen
     }
-    for joint, scores in constants.items():
-        reference.loc[CONSTANT_OF_OTHERS[joint]] = scores.mean()
-    blind = reference.loc["task_blind"]
-    rows = []
-    for model, group in metrics.groupby("model"):
-        knows = model != "no_task"
-        constant = constants.get(VARIANTS[str(model)].joint_labels)
-        paper = {} if unseen else dict(zip(SHORT.values(), PAPER[str(model)], strict=True))
-        rows.append(
-            {"model": model, "labels": labels}
-            | {key: _only(group[key]) for key in ("backbone", "weights")}
-            | {f"{short}_mean": group[name].mean() for name, short in SHORT.items()}
-            | {f"{short}_sd": group[name].std() for name, short in SHORT.items()}
-            | {"n_folds": group["group"].nunique(), "n_seeds": group["seed"].nunique()}
-            | {f"paper_{short}": value for short, value in paper.items()}
-            | {"ceiling_sim": 1.0 if knows else blind["angular_similarity"]}
-            | {"ceiling_acc": 1.0 if knows else blind["multilabel_accuracy"]}
-            | ({} if constant is None else _over(constant, group))
-        )
-    rows.sort(key=lambda row: list(VARIANTS).index(row["model"]))
+    reference = _reference_scores(samples, constants)
+    groups = {str(model): group for model, group in metrics.groupby("model")}
+    rows = [
+        {"model": model, "labels": labels}
+        | _trained(groups[model], model == "no_task", reference.loc["task_blind"])
+        | ({} if unseen else _paper(model))
+        | _over(constants.get(variant.joint_labels), groups[model])
+        for model, variant in VARIANTS.items()
+        if model in groups
+    ]
     for name in reference.index:
         values = {f"{short}_mean": reference.loc[name, long] for long, short in SHORT.items()}
         rows.append({"model": name, "labels": labels} | values)
     if not unseen:
         rows.append({"model": LITERATURE[0], "labels": "", "paper_sim": LITERATURE[1]})
-    table = pd.DataFrame(rows, columns=list(RESULT_SCHEMA.columns))
-    texts, counts = ["backbone", "weights"], ["n_folds", "n_seeds"]
-    table[texts] = table[texts].fillna("")
-    table[counts] = table[counts].fillna(0).astype(int)
-    ends, starts = ("_mean", "_sd"), ("paper", "sim_over")
-    numbers = [name for name in table if name.endswith(ends) or name.startswith(starts)]
-    table[numbers] = table[numbers].astype(float)
-    return table.round(6)
+    return _typed(pd.DataFrame(rows, columns=list(RESULT_SCHEMA.columns)))
 
 
 def constant_rows(table: pd.DataFrame, labels: str) -> pd.DataFrame:
@@ -230,13 +106,63 @@ def constant_rows(table: pd.DataFrame, labels: str) -> pd.DataFrame:
     return rows.loc[named].set_axis(models)
 
 
-def _over(constant: pd.DataFrame, group: pd.DataFrame) -> dict[str, float]:
+def _reference_scores(
+    samples: pd.DataFrame, constants: Mapping[bool, pd.DataFrame]
+) -> pd.DataFrame:
+    """Index reference predictor, columns measures: the ceilings and the constant answers.
+
+    Args:
+        constants: those of the other objects, by whether joint labels are asked for.
+    """
+    reference = ceilings(labels_asked(samples, joint=False))
+    joint_reference = ceilings(labels_asked(samples, joint=True))
+    reference.loc[CONSTANT_JOINT] = joint_reference.loc["best_constant"]
+    for joint, scores in constants.items():
+        reference.loc[CONSTANT_OF_OTHERS[joint]] = scores.mean()
+    return reference
+
+
+def _trained(group: pd.DataFrame, blind: bool, task_blind: pd.Series) -> dict[str, object]:
+    """A trained model's own columns.
+
+    Args:
+        group: its rows of :data:`METRIC_SCHEMA`.
+        blind: to the task.
+        task_blind: the measures of the task-blind ceiling.
+    """
+    return (
+        {key: _only(group[key]) for key in ("backbone", "weights")}
+        | {f"{short}_mean": group[name].mean() for name, short in SHORT.items()}
+        | {f"{short}_sd": group[name].std() for name, short in SHORT.items()}
+        | {"n_folds": group["group"].nunique(), "n_seeds": group["seed"].nunique()}
+        | {"ceiling_sim": task_blind["angular_similarity"] if blind else 1.0}
+        | {"ceiling_acc": task_blind["multilabel_accuracy"] if blind else 1.0}
+    )
+
+
+def _paper(model: str) -> dict[str, float]:
+    return {f"paper_{s}": value for s, value in zip(SHORT.values(), PAPER[model], strict=True)}
+
+
+def _typed(table: pd.DataFrame) -> pd.DataFrame:
+    """What a row does not have is empty: texts "", counts 0, numbers NaN."""
+    texts, counts = ["backbone", "weights"], ["n_folds", "n_seeds"]
+    table[texts] = table[texts].fillna("")
+    table[counts] = table[counts].fillna(0).astype(int)
+    ends, starts = ("_mean", "_sd"), ("paper", "sim_over")
+    numbers = [name for name in table if name.endswith(ends) or name.startswith(starts)]
+    return table.astype(dict.fromkeys(numbers, float)).round(6)
+
+
+def _over(constant: pd.DataFrame | None, group: pd.DataFrame) -> dict[str, float]:
     """A model's similarity over that of a constant answer, paired by object.
 
     Args:
-        constant: of :func:`grasptypes.predictors.ceilings.constant_of_others`.
+        constant: of :func:`grasptypes.predictors.ceilings.constant_of_others`; None gives nothing.
         group: the model's rows of :data:`METRIC_SCHEMA`, their groups being objects left out.
     """
+    if constant is None:
+        return {}
     measure = "angular_similarity"
     by_object = group.groupby("group")[measure].mean()
     over = by_object - constant.loc[by_object.index, measure]

@@ -7,7 +7,7 @@ from typing import Any
 
 import pandas as pd
 
-from grasptypes.reports.results import SHORT
+from grasptypes.predictors.scoring import SHORT
 
 MEASURES = {short: measure.split("_")[-1] for measure, short in SHORT.items()}
 DIGITS = 4  # two beyond what a table of the paper shows

@@ -8,9 +8,9 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from grasptypes.predictors.predictor import VARIANTS
+from grasptypes.predictors.scoring import SHORT
 from grasptypes.reports.result_plots import LABELLED, MEASURES, OURS, PAPER
 from grasptypes.reports.results import PAPER as PAPER_ROWS
-from grasptypes.reports.results import SHORT
 
 TEST, TRAIN = "#b23a48", OURS
 # Width over which the seeds of a model lie beside each other, in places on the axis.

@@ -13,7 +13,7 @@ from typing import Any
 import pandas as pd
 
 from grasptypes.predictors.metrics import METRICS
-from grasptypes.reports.results import CURVE_SCHEMA, METRIC_SCHEMA
+from grasptypes.predictors.scoring import CURVE_SCHEMA, METRIC_SCHEMA
 from grasptypes.tables import read_table
 
 # What grasptypes.runs.serving imports, directly or not.

@@ -18,8 +18,8 @@ from grasptypes.predictors.generalisation import (
     try_trial,
 )
 from grasptypes.predictors.leaving_out import members_by_object
+from grasptypes.predictors.scoring import METRIC_SCHEMA
 from grasptypes.reports.generalisation_plot import plot_generalisation
-from grasptypes.reports.results import METRIC_SCHEMA
 
 VARIANTS = {
     f"{name}_v{number:02d}": {encoding: array + 0.01 * number for encoding, array in shown.items()}

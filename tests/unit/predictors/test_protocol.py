@@ -15,9 +15,9 @@ from grasptypes.predictors.examples import assemble
 from grasptypes.predictors.predictor import VARIANTS, Architecture, Heads
 from grasptypes.predictors.predictor_files import Card, load_predictor, read_card, write_predictor
 from grasptypes.predictors.protocol import Recipe, recipe_of, train_final, try_splits
+from grasptypes.predictors.scoring import CURVE_SCHEMA, PREDICTION_SCHEMA
 from grasptypes.predictors.training import Member, members_by_group
 from grasptypes.predictors.weights import weights_file
-from grasptypes.reports.results import CURVE_SCHEMA, PREDICTION_SCHEMA
 
 KEY = ("predictor", "test")
 

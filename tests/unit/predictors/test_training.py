@@ -6,8 +6,8 @@ import learning
 import numpy as np
 import pytest
 
+from grasptypes.predictors.scoring import score
 from grasptypes.predictors.training import Member, fit, members_by_group, predict
-from grasptypes.reports.results import score
 
 KEY = ("predictor", "test")
 

@@ -6,16 +6,9 @@ import pytest
 
 from grasptypes.labels.samples import COUNTS, samples_from_counts
 from grasptypes.predictors.learning_inputs import BackboneRecord
-from grasptypes.predictors.training import Member
+from grasptypes.predictors.scoring import METRIC_SCHEMA, with_source
 from grasptypes.reports.result_text import markdown
-from grasptypes.reports.results import (
-    METRIC_SCHEMA,
-    RESULT_SCHEMA,
-    constant_rows,
-    curve_table,
-    tabulate,
-    with_source,
-)
+from grasptypes.reports.results import RESULT_SCHEMA, constant_rows, tabulate
 
 BACKBONE = BackboneRecord("mobilenet_v2", "a.pth (0a1b2c3d)", "0a1b2c3d", 224)
 
@@ -140,13 +133,3 @@ def test_who_is_asked_for_joint_labels_has_a_constant_answer_of_its_own():
     over = table.set_index("model")["sim_over_constant"]
     assert over["task_vector"] == pytest.approx(0.1)
     assert over["ignores_task"] == pytest.approx(-0.4)
-
-
-def test_curves_have_a_row_a_member_and_epoch():
-    members = [
-        Member("0", 0, np.arange(2), np.arange(0)),
-        Member("1", 0, np.arange(2), np.arange(0)),
-    ]
-    table = curve_table(members, np.arange(12.0).reshape(3, 2, 2))
-    last = table.query("group == '1' and epoch == 3")
-    assert last[["train_loss", "test_loss"]].to_numpy().tolist() == [[10, 11]]

@@ -3,7 +3,8 @@
 import pandas as pd
 import pytest
 
-from grasptypes.reports.results import PAPER, SHORT
+from grasptypes.predictors.scoring import SHORT
+from grasptypes.reports.results import PAPER
 from grasptypes.reports.training_plots import draw_folds, draw_losses
 
 

@@ -16,8 +16,8 @@ import pytest
 
 from grasptypes.params import read_yaml
 from grasptypes.predictors.metrics import METRICS
+from grasptypes.predictors.scoring import CURVE_SCHEMA, METRIC_SCHEMA
 from grasptypes.predictors.weights import WEIGHTS_VARIABLE
-from grasptypes.reports.results import CURVE_SCHEMA, METRIC_SCHEMA
 from grasptypes.runs import ui
 from grasptypes.runs.publishing import (
     checksum,

@@ -6,7 +6,7 @@ import pandas as pd
 import pytest
 
 from grasptypes.predictors.metrics import METRICS
-from grasptypes.reports.results import CURVE_SCHEMA, METRIC_SCHEMA
+from grasptypes.predictors.scoring import CURVE_SCHEMA, METRIC_SCHEMA
 from grasptypes.runs.run_records import Finished, flatten, run_record, serving_requirements
 from grasptypes.tables import write_table
 

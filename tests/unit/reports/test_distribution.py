@@ -4,8 +4,8 @@ import pandas as pd
 import pytest
 
 from grasptypes.errors import InputError
-from grasptypes.labels.distribution import DISTRIBUTION_SCHEMA, compare_distributions, describe
 from grasptypes.labels.samples import COUNTS, samples_from_counts
+from grasptypes.reports.distribution import DISTRIBUTION_SCHEMA, compare_distributions, describe
 
 
 def counts(rows):

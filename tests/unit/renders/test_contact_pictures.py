@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from grasptypes.contact_maps.contact_pictures import look_at, studio_of
+from grasptypes.renders.contact_pictures import look_at, studio_of
 
 RENDERS = {
     "size_px": 256,

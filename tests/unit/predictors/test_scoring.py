@@ -1,0 +1,40 @@
+"""Rows of metrics, predictions and losses, one a member."""
+
+import numpy as np
+import pandas as pd
+
+from grasptypes.labels.samples import TYPES
+from grasptypes.predictors.examples import Examples
+from grasptypes.predictors.scoring import PREDICTION_SCHEMA, curve_table, score
+from grasptypes.predictors.training import Member
+
+
+def test_every_member_is_scored_on_its_own_test_examples():
+    labels = np.eye(6)[[0, 1, 2]]
+    index = pd.DataFrame({"object": ["mug", "pan", "bowl"], "view": [0, 1, 2], "task": "use"})
+    examples = Examples(index, np.zeros((3, 1), np.float32), None, labels, labels)
+    members = [
+        Member("0", 0, np.array([2]), np.array([0, 1])),
+        Member("1", 7, np.array([0, 1]), np.array([2])),
+    ]
+    certain = np.where(labels, 40.0, -40.0)
+    metrics, predictions = score(examples, members, [certain[:2], certain[:1]])
+    assert metrics[["group", "seed", "n_train", "n_test"]].to_numpy().tolist() == [
+        ["0", 0, 1, 2], ["1", 7, 2, 1],
+    ]  # fmt: skip
+    assert metrics["multilabel_accuracy"].tolist() == [1.0, 0.0]
+    assert np.allclose(metrics["angular_similarity"], [1, 0], atol=1e-6)
+    PREDICTION_SCHEMA.validate(predictions)
+    assert predictions["object"].tolist() == ["mug", "pan", "bowl"]
+    assert predictions["seed"].tolist() == [0, 0, 7]
+    assert predictions[f"logit_{TYPES[0]}"].tolist() == [40, -40, 40]
+
+
+def test_curves_have_a_row_a_member_and_epoch():
+    members = [
+        Member("0", 0, np.arange(2), np.arange(0)),
+        Member("1", 0, np.arange(2), np.arange(0)),
+    ]
+    table = curve_table(members, np.arange(12.0).reshape(3, 2, 2))
+    last = table.query("group == '1' and epoch == 3")
+    assert last[["train_loss", "test_loss"]].to_numpy().tolist() == [[10, 11]]
