@@ -12,6 +12,8 @@ import yaml
 
 from grasptypes.errors import InputError
 
+# The schema's place in a checkout.
+PARAMS_SCHEMA = "workflow/schemas/params.schema.yaml"
 # Far more levels than any parameter needs.
 DEEPEST = 100
 # libyaml parses several times faster; a PyYAML built without it does the same in Python.

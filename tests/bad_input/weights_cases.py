@@ -20,10 +20,10 @@ class Code:
         return Path.touch, (Path("ran"),)
 
 
-def weights(what: str, content: Content | None, *names: str) -> Case:
+def weights(what: str, content: Content | None, *names: str, chosen: str = "default") -> Case:
     """A file that GRASPTYPES_BACKBONE_WEIGHTS names."""
     files = {} if content is None else {"net.pth": content}
-    prepare = script("prepare_backbone", "prepare_backbone", "backbone.json", 0, 64)
+    prepare = script("prepare_backbone", "prepare_backbone", "backbone.json", chosen, 0, 64)
     return Case("weights", what, files, prepare, ("net.pth", *names), {WEIGHTS_VARIABLE: "net.pth"})
 
 
@@ -55,6 +55,7 @@ def with_nan() -> dict[str, torch.Tensor]:
 CASES = [
     weights("not there", None, WEIGHTS_VARIABLE, "not a file"),
     weights("a folder", Path.mkdir, WEIGHTS_VARIABLE, "not a file"),
+    weights("not those of the results here", b"net", WEIGHTS_VARIABLE, "0a1b", chosen="0a1b"),
     weights("empty", b"", "not a file of tensors"),
     weights("truncated", truncated, "not a file of tensors"),
     weights("text", "weights\n", "not a file of tensors"),

@@ -92,7 +92,7 @@ def small_predictor(folder: Path, weights: Weights, model: str = "task_vector") 
     sizes = Architecture(KINDS["mobilenet_v2"].features, tasks, (8, 8, 8), 6)
     card = Card(
         model, "simulated", TYPES, tuple(SHIFTS), SHIFTS, sizes,
-        weights.backbone, weights.name, 32, "none",
+        weights.backbone, weights.name, 32, "none", "bf16",
     )  # fmt: skip
     heads = Heads(sizes, [("a",)])
     with torch.no_grad():

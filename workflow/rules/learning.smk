@@ -115,6 +115,7 @@ rule train_predictor:
         "../envs/grasptypes.yaml"
     params:
         settings=settings("predictors"),
+        precision=config["features"]["precision"],
         tasks=learning_tasks,
         seed=config["seed"],
         code=script_hash("train_predictor"),

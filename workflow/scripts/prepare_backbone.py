@@ -2,15 +2,26 @@
 
 from pathlib import Path
 
+from grasptypes.errors import InputError
 from grasptypes.jobs import job
 from grasptypes.predictors.backbone import load_backbone
 from grasptypes.predictors.learning_inputs import write_backbone_record
-from grasptypes.predictors.weights import find_weights
+from grasptypes.predictors.weights import WEIGHTS_VARIABLE, find_weights
 
 
-def prepare_backbone(record: str | Path, timeout_s: float, input_px: int) -> str:
-    """Write the record of the weights, after loading them once; returns a line about them."""
+def prepare_backbone(record: str | Path, chosen: str, timeout_s: float, input_px: int) -> str:
+    """Write the record of the weights, after loading them once; returns a line about them.
+
+    Args:
+        chosen: `default`, or the start of the checksum of the only weights that will do.
+    """
     weights = find_weights(timeout_s)
+    if chosen != "default" and not weights.sha256.startswith(chosen):
+        message = (
+            f"is not set: the results here were made with weights {chosen}, but found are "
+            f"{weights.name}; name that file, or start again to use what is found"
+        )
+        raise InputError(WEIGHTS_VARIABLE, "", message)
     load_backbone(weights, input_px)
     write_backbone_record(weights, input_px, record)
     return f"backbone {weights.backbone}, weights {weights.name} from {weights.source}"
@@ -20,6 +31,9 @@ if __name__ == "__main__":
     with job(snakemake.log) as logger:
         logger.info(
             prepare_backbone(
-                snakemake.output.record, snakemake.params.timeout_s, snakemake.params.input_px
+                snakemake.output.record,
+                snakemake.params.weights,
+                snakemake.params.timeout_s,
+                snakemake.params.input_px,
             )
         )

@@ -25,9 +25,17 @@ def train_predictor(
     name: tuple[str, str],
     tasks: Mapping[str, Mapping[str, int]],
     settings: Mapping[str, Any],
+    precision: str,
     seed: int,
 ) -> None:
-    """Train the model `name` (labels, model) and write its tables, tensors and card."""
+    """Train the model `name` (labels, model) and write its tables, tensors and card.
+
+    Args:
+        inputs: those of `read_problem`.
+        tasks: the section of params.yaml, those that the labels know.
+        settings: the `predictors` section.
+        precision: number format that frozen features were computed in.
+    """
     problem = read_problem(inputs, name, tasks, settings)
     key = ("predictor", name[1], seed)
     members = members_by_group(problem.examples.index["fold"], settings["seeds"])
@@ -37,7 +45,7 @@ def train_predictor(
     write_table(outcome.curves, outputs["curves"], CURVE_SCHEMA)
     write_table(outcome.predictions, outputs["predictions"], PREDICTION_SCHEMA)
     heads, tuned = train_final(problem.examples, problem.recipe, key, problem.backbone)
-    card = problem.card(heads.architecture)
+    card = problem.card(heads.architecture, precision)
     write_predictor(heads, tuned, card, outputs["tensors"], outputs["card"])
 
 
@@ -50,5 +58,6 @@ if __name__ == "__main__":
             (snakemake.wildcards.labels, snakemake.wildcards.model),
             snakemake.params.tasks,
             snakemake.params.settings,
+            snakemake.params.precision,
             snakemake.params.seed,
         )

@@ -10,9 +10,8 @@ from pathlib import Path
 from typing import Any
 
 from grasptypes.errors import InputError
-from grasptypes.params import load_params
+from grasptypes.params import PARAMS_SCHEMA, load_params
 
-SCHEMA = "workflow/schemas/params.schema.yaml"
 PARAMS = "params.yaml"
 # Draws for a user's mesh depend on this word, so that its file's name does not change the answer.
 MESH_WORD = "mesh"
@@ -46,7 +45,7 @@ def folder_params(folder: Path) -> dict[str, Any]:
     """
     if not (folder / PARAMS).is_file():
         raise InputError(folder / PARAMS, "", "no such file; name a checkout with --folder")
-    return load_params(folder / PARAMS, folder / SCHEMA)
+    return load_params(folder / PARAMS, folder / PARAMS_SCHEMA)
 
 
 def check_target(path: Path, suffix: str) -> None:

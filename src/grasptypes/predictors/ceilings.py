@@ -28,8 +28,8 @@ def ceilings(labels: np.ndarray) -> pd.DataFrame:
     unit label vectors. For two samples no other vector is more similar to both. For more it has the
     largest mean cosine, not the largest mean angular similarity, so the similarity of
     ``best_constant``, and that of ``task_blind`` with three tasks or more, is only a lower bound of
-    the best there is. Sets are those of the best accuracy; the precision is theirs, another set may
-    have a better one.
+    the best there is. Accuracy and precision are each of the set that is best in it: for precision
+    that is a single type.
 
     Args:
         labels: (objects, tasks, K) truth values.
@@ -38,12 +38,11 @@ def ceilings(labels: np.ndarray) -> pd.DataFrame:
         index :data:`CEILINGS`, columns the three measures of :mod:`grasptypes.predictors.metrics`.
     """
     everything = labels.reshape(1, -1, labels.shape[-1])
+    every = np.ones(labels.shape[-1], dtype=bool)
     rows = {
         "task_blind": _best(labels),
         "best_constant": _best(everything),
-        "all_types": _scores(
-            labels, np.ones(labels.shape[-1]), np.ones(labels.shape[-1], dtype=bool)
-        ),
+        "all_types": _scores(labels, np.ones(len(every)), every, every),
     }
     return pd.DataFrame.from_dict(rows, orient="index", columns=list(METRICS))
 
@@ -52,8 +51,8 @@ def constant_of_others(samples: pd.DataFrame, joint: bool) -> pd.DataFrame:
     """Scores on each object of the constant answer that is best for the other objects.
 
     The answer is chosen as that of ``best_constant`` in :func:`ceilings`, on the labels that a
-    predictor is trained on that the object is left out of: not those of its variants either. Its
-    set is the weaker part: where two sets are nearly as good for all objects, leaving out one that
+    predictor is trained on that the object is left out of: not those of its variants either. In
+    accuracy it is weak: where two sets are nearly as good for all objects, leaving out one that
     speaks for the first lets the second win, and the accuracy falls.
 
     Args:
@@ -90,27 +89,29 @@ def _best(groups: np.ndarray) -> tuple[float, float, float]:
     return _scores(groups, *_answers(groups))
 
 
-def _answers(groups: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """One answer for each group of samples, see :func:`ceilings`.
+def _answers(groups: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """The best answer to each group of samples in each measure, see :func:`ceilings`.
 
     Args:
         groups: (G, N, K) truth values.
 
     Returns:
-        (G, 1, K) vectors, and (G, 1, K) sets as truth values.
+        (G, 1, K) vectors, and twice (G, 1, K) sets as truth values: for accuracy, for precision.
     """
     units = groups / np.linalg.norm(groups, axis=-1, keepdims=True)
     candidates = np.array(list(product([False, True], repeat=groups.shape[-1]))[1:])
-    accuracy = multilabel_accuracy(candidates[:, None, None], groups).mean(axis=-1)
-    sets = candidates[accuracy.argmax(axis=0)]
-    return units.mean(axis=1, keepdims=True), sets[:, None]
+    accurate, precise = (
+        candidates[measure(candidates[:, None, None], groups).mean(axis=-1).argmax(axis=0)]
+        for measure in (multilabel_accuracy, multilabel_precision)
+    )
+    return units.mean(axis=1, keepdims=True), accurate[:, None], precise[:, None]
 
 
 def _scores(
-    labels: np.ndarray, vector: np.ndarray, types: np.ndarray
+    labels: np.ndarray, vector: np.ndarray, accurate: np.ndarray, precise: np.ndarray
 ) -> tuple[float, float, float]:
     return (
         float(angular_similarity(vector, labels.astype(float)).mean()),
-        float(multilabel_accuracy(types, labels).mean()),
-        float(multilabel_precision(types, labels).mean()),
+        float(multilabel_accuracy(accurate, labels).mean()),
+        float(multilabel_precision(precise, labels).mean()),
     )

@@ -75,13 +75,18 @@ def extract(
     Returns:
         encoding to (N, F) float32.
     """
-    backbone = backbone.to(memory_format=torch.channels_last).eval()
+    backbone = for_inference(backbone)
     features = {}
     for encoding, shift in shifts.items():
         tensor = torch.from_numpy(shift_colours(pictures, shift))
         parts = [forward(backbone, chunk, precision) for chunk in tensor.split(batch)]
         features[encoding] = torch.cat(parts).numpy()
     return features
+
+
+def for_inference(backbone: Backbone) -> Backbone:
+    """The same backbone in evaluation mode, in the memory layout that suits CPUs."""
+    return backbone.to(memory_format=torch.channels_last).eval()
 
 
 @torch.inference_mode()

@@ -74,7 +74,7 @@ class Heads(nn.Module):
     Args:
         architecture: the sizes.
         keys: one for each head; it names the head's random start and its dropout (see
-            :mod:`grasptypes.seeds`), so that no head depends on those beside it.
+            :mod:`grasptypes.seeds`), so that neither depends on the heads beside it.
         dropout: share of the first two layers' outputs left out in training.
     """
 

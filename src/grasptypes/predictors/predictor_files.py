@@ -16,8 +16,7 @@ import torch
 from grasptypes.errors import InputError
 from grasptypes.files import write_bytes, write_json
 from grasptypes.predictors.backbone import Backbone, load_backbone
-from grasptypes.predictors.features import shift_colours
-from grasptypes.predictors.finetuning import Network
+from grasptypes.predictors.features import for_inference, forward, shift_colours
 from grasptypes.predictors.predictor import VARIANTS, Architecture, Heads
 from grasptypes.predictors.weights import WEIGHTS_VARIABLE, Weights
 
@@ -39,6 +38,8 @@ class Card:
         weights: name and checksum of the backbone's weights.
         input_px: size at which the backbone sees a picture.
         finetune: ``none`` if the backbone is as its weights file has it.
+        precision: number format in which the backbone computes, see :func:`features.forward`: that
+            of the features which the head learned from.
     """
 
     model: str
@@ -51,13 +52,15 @@ class Card:
     weights: str
     input_px: int
     finetune: str
+    precision: str
 
 
 class Predictor:
-    """A network and its card: pictures and task to logits of grasp types."""
+    """A backbone, a head and their card: pictures and task to logits of grasp types."""
 
-    def __init__(self, network: Network, card: Card) -> None:
-        self.network = network.eval()
+    def __init__(self, backbone: Backbone, head: Heads, card: Card) -> None:
+        self.backbone = for_inference(backbone)
+        self.head = head.eval()
         self.card = card
 
     def logits(self, pictures: np.ndarray, task: str) -> np.ndarray:
@@ -76,8 +79,10 @@ class Predictor:
         if variant.task_vector:
             vector = torch.zeros(len(pictures), len(card.tasks))
             vector[:, card.tasks.index(task)] = 1
+        tensor = torch.from_numpy(np.ascontiguousarray(pictures))
+        features = forward(self.backbone, tensor, card.precision)
         with torch.inference_mode():
-            return self.network(torch.from_numpy(np.ascontiguousarray(pictures)), vector).numpy()
+            return self.head(features[None], None if vector is None else vector[None])[0].numpy()
 
 
 def write_predictor(
@@ -146,7 +151,7 @@ def load_predictor(tensors: str | Path, described: str | Path, weights: Weights)
             backbone.load_state_dict(_below("backbone.", state))
     except (OSError, RuntimeError, safetensors.SafetensorError) as error:
         raise InputError(tensors, "", f"not this predictor's tensors: {error}") from error
-    return Predictor(Network(backbone, heads), card)
+    return Predictor(backbone, heads, card)
 
 
 def _below(prefix: str, state: Mapping[str, torch.Tensor]) -> dict[str, torch.Tensor]:

@@ -21,6 +21,8 @@ from grasptypes.predictors.predictor_files import Card
 from grasptypes.predictors.protocol import Recipe, recipe_of
 from grasptypes.tables import read_table
 
+TRAINED_PRECISION = "fp32"  # in which fine-tuning computes
+
 
 @dataclass(frozen=True)
 class Problem:
@@ -44,8 +46,12 @@ class Problem:
     record: BackboneRecord
     backbone: Backbone | None
 
-    def card(self, architecture: Architecture) -> Card:
-        """The card of a predictor trained on this problem."""
+    def card(self, architecture: Architecture, precision: str) -> Card:
+        """The card of a predictor trained on this problem.
+
+        Args:
+            precision: of the features, should the recipe be frozen.
+        """
         return Card(
             model=self.model,
             labels=self.labels,
@@ -57,6 +63,7 @@ class Problem:
             weights=self.record.weights,
             input_px=self.record.input_px,
             finetune=self.recipe.tuning.finetune,
+            precision=precision if self.recipe.frozen else TRAINED_PRECISION,
         )
 
 

@@ -84,7 +84,8 @@ def fit(
 
     The first layer is trained in the leading principal directions of each member's own training
     features, and takes the features themselves afterwards: a change of coordinates that makes
-    training several times faster and leaves a head of four layers.
+    training several times faster and leaves a head of four layers. All heads have as many
+    directions and take as many steps an epoch as the smallest training split allows.
 
     Args:
         examples: with features as inputs.
@@ -98,10 +99,14 @@ def fit(
     """
     features = torch.from_numpy(examples.inputs)
     views = {member.group: member for member in members}
-    projections = {g: _principal(features[m.train], schedule) for g, m in views.items()}
+    smallest = min(len(member.train) for member in members)
+    components = min(schedule.components, smallest - 1, features.shape[1])
+    projections = {
+        group: _principal(features[member.train], components, schedule.whitening)
+        for group, member in views.items()
+    }
     projected = {g: (features - c) @ p for g, (c, p) in projections.items()}
     tasks = 0 if examples.task_vectors is None else examples.task_vectors.shape[1]
-    components = next(iter(projected.values())).shape[1]
     sizes = Architecture(components, tasks, schedule.hidden, examples.labels.shape[1])
     keys = [(*key, member.group, member.seed) for member in members]
     heads = Heads(sizes, keys, schedule.dropout)
@@ -147,14 +152,14 @@ class _Data:
         return loss(logits, self.labels[rows], self.probabilities[rows], probability_weight)
 
 
-def _principal(features: Tensor, schedule: Schedule) -> tuple[Tensor, Tensor]:
+def _principal(features: Tensor, components: int, whitening: float) -> tuple[Tensor, Tensor]:
     """Centre (F,) and projection (F, components) onto the leading principal directions."""
     centre = features.mean(dim=0)
     centred = features - centre
     variances, directions = torch.linalg.eigh(centred.T @ centred / len(features))
-    count = min(schedule.components, len(features) - 1, features.shape[1])
-    variances, directions = variances[-count:].clamp_min(1e-9), directions[:, -count:]
-    scales = variances ** (-schedule.whitening / 2)
+    variances = variances[-components:].clamp_min(1e-9)
+    directions = directions[:, -components:]
+    scales = variances ** (-whitening / 2)
     overall = (variances * scales**2).mean().sqrt()
     # The sign of an eigenvector is arbitrary; fix it, so that no library decides it.
     signs = directions.gather(0, directions.abs().argmax(dim=0, keepdim=True)).sign()

@@ -11,8 +11,11 @@ import pandera.pandas as pa
 from grasptypes.errors import InputError
 from grasptypes.labels.samples import COUNTS
 from grasptypes.predictors.metrics import angular_similarity
+from grasptypes.seeds import rng
 
 MEAN = "mean"
+# Draws that the mean over (object, task) does not depend on in its third digit.
+RESAMPLES = 1000
 PUBLISHED = tuple(f"published_{name}" for name in COUNTS)
 
 DISTRIBUTION_SCHEMA = pa.DataFrameSchema(
@@ -21,6 +24,11 @@ DISTRIBUTION_SCHEMA = pa.DataFrameSchema(
         "task": pa.Column(str),
         **{name: pa.Column(float, pa.Check.ge(0)) for name in (*COUNTS, *PUBLISHED)},
         "similarity": pa.Column(float, pa.Check.in_range(0, 1)),
+        "resampled": pa.Column(
+            float,
+            pa.Check.in_range(0, 1),
+            description="of as many draws from the published ones: what chance allows",
+        ),
     },
     strict=True,
     ordered=True,
@@ -51,10 +59,20 @@ def compare_distributions(
         raise InputError(file, "object, task", "none of them has samples here")
     ours, published_counts = (table[list(names)].to_numpy(float) for names in (COUNTS, PUBLISHED))
     table["similarity"] = angular_similarity(ours, published_counts).round(4)
-    numbers = [*COUNTS, *PUBLISHED, "similarity"]
+    table["resampled"] = [
+        _resampled(counts, rng("resampled", *name))
+        for counts, name in zip(published_counts, table[keys].itertuples(index=False), strict=True)
+    ]
+    numbers = [*COUNTS, *PUBLISHED, "similarity", "resampled"]
     mean = {"object": MEAN, "task": MEAN, **table[numbers].mean().round(4).to_dict()}
     table = pd.concat([table, pd.DataFrame([mean])], ignore_index=True)
     return table.astype(dict.fromkeys(numbers, float))[list(DISTRIBUTION_SCHEMA.columns)]
+
+
+def _resampled(counts: np.ndarray, draw: np.random.Generator) -> float:
+    """Mean angular similarity of counts (K,) and of as many draws from their shares."""
+    drawn = draw.multinomial(int(counts.sum()), counts / counts.sum(), RESAMPLES)
+    return round(float(angular_similarity(drawn, counts).mean()), 4)
 
 
 def describe(counts: pd.DataFrame) -> tuple[float, float]:

@@ -36,8 +36,10 @@ def markdown(table: pd.DataFrame) -> str:
         .drop_duplicates()
         .itertuples(index=False)
     )
+    over = "folds and seeds" if paper else "objects left out, repetitions averaged"
+    spread = f"± in the table: standard deviation over {over}."
     verdict = "" if paper else f"\n{beside_constant(table)}\n"
-    return "\n".join(f"| {line} |" for line in lines) + f"\n\n{note}\n{verdict}"
+    return "\n".join(f"| {line} |" for line in lines) + f"\n\n{note}\n\n{spread}\n{verdict}"
 
 
 def beside_constant(table: pd.DataFrame) -> str:
@@ -60,8 +62,8 @@ def beside_constant(table: pd.DataFrame) -> str:
     sentences.append(
         "constant_of_others is fitted to the labels that a model is trained on; best_constant to "
         "those of all objects, the one left out among them. Both give one answer to every object "
-        "and task; those to ignores_task, which is asked for the types of all tasks together, are "
-        "the rows in _joint."
+        "and task, each measure its own best one; those to ignores_task, which is asked for the "
+        "types of all tasks together, are the rows in _joint."
     )
     return "\n\n".join(sentences)
 

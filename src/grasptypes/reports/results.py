@@ -77,8 +77,9 @@ def tabulate(
     groups = {str(model): group for model, group in metrics.groupby("model")}
     rows = [
         {"model": model, "labels": labels}
-        | _trained(groups[model], model == "no_task", reference.loc["task_blind"])
+        | _trained(groups[model], unseen)
         | ({} if unseen else _paper(model))
+        | _ceiling(model, reference.loc["task_blind"])
         | _over(constants.get(variant.joint_labels), groups[model])
         for model, variant in VARIANTS.items()
         if model in groups
@@ -122,22 +123,28 @@ def _reference_scores(
     return reference
 
 
-def _trained(group: pd.DataFrame, blind: bool, task_blind: pd.Series) -> dict[str, object]:
-    """A trained model's own columns.
+def _trained(group: pd.DataFrame, unseen: bool) -> dict[str, object]:
+    """A trained model's own columns; their spread is over folds and seeds, or over unseen objects.
 
     Args:
         group: its rows of :data:`METRIC_SCHEMA`.
-        blind: to the task.
-        task_blind: the measures of the task-blind ceiling.
+        unseen: repetitions are averaged before the spread is taken.
     """
+    spread = group.groupby("group")[list(SHORT)].mean() if unseen else group
     return (
         {key: _only(group[key]) for key in ("backbone", "weights")}
         | {f"{short}_mean": group[name].mean() for name, short in SHORT.items()}
-        | {f"{short}_sd": group[name].std() for name, short in SHORT.items()}
+        | {f"{short}_sd": spread[name].std() for name, short in SHORT.items()}
         | {"n_folds": group["group"].nunique(), "n_seeds": group["seed"].nunique()}
-        | {"ceiling_sim": task_blind["angular_similarity"] if blind else 1.0}
-        | {"ceiling_acc": task_blind["multilabel_accuracy"] if blind else 1.0}
     )
+
+
+def _ceiling(model: str, task_blind: pd.Series) -> dict[str, float]:
+    knows = model != "no_task"
+    return {
+        "ceiling_sim": 1.0 if knows else task_blind["angular_similarity"],
+        "ceiling_acc": 1.0 if knows else task_blind["multilabel_accuracy"],
+    }
 
 
 def _paper(model: str) -> dict[str, float]:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import hashlib
 import logging
+import shutil
 import subprocess
 import sys
 from collections.abc import Mapping, Sequence
@@ -19,7 +20,7 @@ import numpy as np
 import grasptypes.errors
 from grasptypes.downloads import file_sha256
 from grasptypes.errors import InputError
-from grasptypes.params import read_yaml
+from grasptypes.params import PARAMS_SCHEMA, load_params
 from grasptypes.predictors.features import read_pictures
 from grasptypes.predictors.learning_inputs import read_backbone_record, recorded_weights
 from grasptypes.predictors.metrics import METRICS
@@ -34,7 +35,6 @@ logger = logging.getLogger(__name__)
 
 # What every run tells of the data it was made from: files, and folders as a whole.
 VERSIONED = (
-    "dvc.lock",
     "data/backbone.json",
     "data/samples.csv",
     "data/published_samples.csv",
@@ -138,7 +138,9 @@ def _servable(files: Finished, weights: Weights, example: np.ndarray) -> LoggedM
 
 
 def _git(root: Path, *arguments: str) -> str:
-    """What git prints; empty outside a checkout."""
+    """What git prints; empty outside a checkout, or without git."""
+    if shutil.which("git") is None:
+        return ""
     command = ["git", "-C", str(root), *arguments]
     return subprocess.run(command, capture_output=True, text=True, check=False).stdout.strip()
 
@@ -149,7 +151,7 @@ def chosen_store(root: Path) -> Store:
     Raises:
         InputError: the parameters cannot be read.
     """
-    settings = read_yaml(root / "params.yaml")["tracking"]
+    settings = load_params(root / "params.yaml", root / PARAMS_SCHEMA)["tracking"]
     return Store(root / settings["database"], settings["experiment"], settings["patience_s"])
 
 

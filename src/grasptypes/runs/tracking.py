@@ -197,8 +197,12 @@ class OpenStore:
         self._client.set_experiment_tag(self.experiment, VIEW_TAG, state)
 
     def log_model(self, run: str, key: str, model: LoggedModel) -> bool:
-        """Log a servable predictor with a run, unless the same one is there; returns if it was."""
-        if self._client.get_run(run).data.tags.get(MODEL_TAG) == key:
+        """Log a servable predictor with a run, unless the same one is there; returns if it was.
+
+        The run keeps the time at which its training ended.
+        """
+        known = self._client.get_run(run)
+        if known.data.tags.get(MODEL_TAG) == key:
             return False
         self._forget_models(run)
         with mlflow.start_run(run_id=run):
@@ -211,6 +215,7 @@ class OpenStore:
                 input_example=model.example(),
                 pip_requirements=list(model.requirements),
             )
+        self._client.set_terminated(run, known.info.status, end_time=known.info.end_time)
         self._client.set_tag(run, MODEL_TAG, key)
         return True
 

@@ -29,8 +29,10 @@ def copy_checkout(source: str | Path, target: str | Path, changes: str | Path) -
         changes: YAML file laid over ``params.yaml``, section by section.
 
     Raises:
-        InputError: ``source`` is not a checkout or a YAML file cannot be read.
+        InputError: ``source`` is not a checkout, a YAML file cannot be read, or git is missing.
     """
+    if shutil.which("git") is None:
+        raise InputError("git", "", "is not installed; it tells which files belong to a checkout")
     source, target = Path(source), Path(target)
     listing = subprocess.run(
         ["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"],

@@ -5,6 +5,7 @@ from __future__ import annotations
 import configparser
 import fcntl
 import os
+import shutil
 import sys
 import tempfile
 import time
@@ -118,14 +119,24 @@ def remove_leftovers(root: str | Path) -> list[Path]:
     nobody ever reads a file that is half written.
 
     Returns:
-        the removed files.
+        the removed files and folders.
+
+    Raises:
+        InputError: one cannot be removed.
     """
     locks = (Path(root) / ".snakemake/locks").glob("*.lock")
     folders = (Path(root) / name for name in ("data", "models", "reports"))
     halves = (path for folder in folders for path in folder.rglob(f".*{TEMPORARY}"))
     found = [*locks, *halves]
     for path in found:
-        path.unlink()
+        try:
+            if path.is_dir():
+                shutil.rmtree(path)
+            else:
+                path.unlink(missing_ok=True)  # it lay in a folder that is gone
+        except OSError as error:
+            message = f"half written, and cannot be removed: {error.strerror}"
+            raise InputError(path, "", message) from error
     return found
 
 

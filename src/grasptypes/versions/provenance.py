@@ -7,6 +7,7 @@ import functools
 import hashlib
 import json
 import os
+import sys
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -15,8 +16,8 @@ from grasptypes.files import write_text
 
 _SOURCE = Path(__file__).resolve().parents[2]
 _PACKAGE = Path(__file__).resolve().parents[1].name
-# Memories of another version of this module may hold something else.
-_VERSION = hashlib.sha256(Path(__file__).read_bytes()).hexdigest()[:16]
+# Memories of another version of this module, or of Python's syntax trees, may hold something else.
+_VERSION = f"{hashlib.sha256(Path(__file__).read_bytes()).hexdigest()[:16]} {sys.version_info[:2]}"
 
 
 class FileMemory:

@@ -17,7 +17,7 @@ from pathlib import Path
 from grasptypes.errors import InputError
 from grasptypes.labels.label_sources import SOURCES
 from grasptypes.objects.variants import all_objects
-from grasptypes.params import load_params
+from grasptypes.params import PARAMS_SCHEMA, load_params
 from grasptypes.versions.guard import FolderLock
 from grasptypes.versions.job_records import RECORDS, recorded_result
 
@@ -101,7 +101,7 @@ def main() -> None:
     logging.basicConfig(level=logging.INFO, format="%(message)s")
     try:
         # Checked whole: a typing error must not pass for a removed object.
-        params = load_params("params.yaml", "workflow/schemas/params.schema.yaml")
+        params = load_params("params.yaml", PARAMS_SCHEMA)
         lock = FolderLock()
         if not lock.take():  # and who holds it has been said
             sys.exit(1)

@@ -112,7 +112,7 @@ def published_grasps():
         pytest.skip("GRASPTYPES_PUBLISHED_CSV or GRASPTYPES_REFERENCE_MESHES is not set")
     params = read_yaml(ROOT / "params.yaml")
     published = read_published(csv)
-    names = ["bowl", "flashlight", "scissors"]
+    names = sorted(path.stem for path in Path(meshes).glob("*.stl"))
     fields = object_distances(names, meshes, "none", params["replay"]["object_scale"], {})
     settings = params["grasp_types"]
     return judge(published, fields, ContactSettings(**settings["contacts"])), settings
@@ -121,4 +121,7 @@ def published_grasps():
 def test_landed_thresholds_agree_with_people(published_grasps):
     judged, settings = published_grasps
     predicted = classify(judged.measures, Thresholds(**settings["thresholds"]))
-    assert np.mean(predicted == judged.labels) > 0.85
+    right = pd.Series(predicted == judged.labels).groupby(judged.objects).mean()
+    assert len(right) == 11
+    assert np.mean(predicted == judged.labels) > 0.82
+    assert right.min() > 0.75

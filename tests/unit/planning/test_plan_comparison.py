@@ -15,6 +15,7 @@ from grasptypes.planning.plan_comparison import (
     PREDICTED,
     Case,
     outcome,
+    savings,
     summary,
     text,
 )
@@ -90,9 +91,34 @@ def test_energies_are_compared_where_all_choices_have_a_grasp():
 
 
 def test_the_summary_is_a_table_of_markdown():
-    lines = text(table()).splitlines()
+    lines, sentences = (part.splitlines() for part in text(table()).split("\n\n"))
     assert len({line.count("|") for line in lines}) == 1
     assert lines[-1].startswith("| all types | 24 | 8: 3.00 |")
+    assert sentences[0].startswith(
+        "predicted types: other grips than with all types in 2 of 2 plans"
+    )
+
+
+def test_savings_are_those_of_plans_that_differ():
+    plans = table()
+    everywhere = savings(plans)
+    # 24 tests of 4 and of 8 valid grasps; each object alone makes the same difference.
+    assert everywhere.loc[PREDICTED].tolist() == pytest.approx([2, 2, 6 - 3, 0])
+    assert everywhere.loc[LABELLED, "saving"] == pytest.approx(24 / 6 - 24 / 8)
+    chosen = (plans.object == "mug") & (plans.choice == PREDICTED)
+    plans.loc[chosen, "types"] = "; ".join(GRASP_TYPES[:-1])
+    alone = savings(plans).loc[PREDICTED]
+    assert (alone["plans"], alone["saving"]) == (1, 3)
+    assert np.isnan(alone["error"])
+
+
+def test_the_error_of_a_saving_is_that_of_a_mean_over_objects():
+    plans = table()
+    tests = {("apple", PREDICTED): 8, ("mug", PREDICTED): 16}
+    for (name, choice), count in tests.items():
+        plans.loc[(plans.object == name) & (plans.choice == choice), "tests"] = count
+    # 4 and 8 tests a valid grasp, 3 with all types: 1 and 5, whose mean has the error 2.
+    assert savings(plans).loc[PREDICTED, ["saving", "error"]].tolist() == pytest.approx([3, 2])
 
 
 def test_every_object_left_out_gets_types_for_every_task():

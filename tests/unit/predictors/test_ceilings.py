@@ -25,6 +25,14 @@ def test_one_object_by_hand():
     assert table.loc["all_types"].tolist() == pytest.approx([0.5, 0.5, 0.5])
 
 
+def test_each_measure_has_its_own_best_set():
+    # The first type always occurs, the others in turn: both of two are better than the first alone.
+    labels = np.array([[[1, 1, 1, 0], [1, 1, 0, 1]]], dtype=bool)
+    best = ceilings(labels).loc["best_constant"]
+    assert best["multilabel_accuracy"] == pytest.approx(3 / 4)  # of all four types
+    assert best["multilabel_precision"] == pytest.approx(1)  # of the first
+
+
 def test_published_labels():
     table = ceilings(labels_of(samples_from_counts(pd.read_csv(PUBLISHED))))
     expected = {"task_blind": (0.849, 0.870), "best_constant": (0.635, 0.648)}

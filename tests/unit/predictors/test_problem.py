@@ -48,7 +48,7 @@ def test_frozen_problems_need_no_backbone_and_others_bring_theirs(files):
 
 def test_the_card_tells_what_the_predictor_needs_to_be_used(files):
     problem = read_problem(files, ("published", "task_in_image"), learning.TASKS, SETTINGS)
-    card = problem.card(Architecture(24, 0, (8, 8, 8), 6))
+    card = problem.card(Architecture(24, 0, (8, 8, 8), 6), "bf16")
     assert (card.model, card.labels, card.finetune) == ("task_in_image", "published", "none")
     assert card.tasks == tuple(learning.TASKS)
     assert card.colour_shifts == {
@@ -56,6 +56,13 @@ def test_the_card_tells_what_the_predictor_needs_to_be_used(files):
     }
     assert card.input_px == 32
     assert card.weights.startswith("random.pth")
+    assert card.precision == "bf16"
+
+
+def test_a_fine_tuned_backbone_is_used_in_the_precision_it_was_trained_in(files):
+    settings = SETTINGS | {"finetune": "all"}
+    problem = read_problem(files, ("published", "no_task"), learning.TASKS, settings)
+    assert problem.card(Architecture(24, 0, (8, 8, 8), 6), "bf16").precision == "fp32"
 
 
 def test_weights_other_than_the_recorded_are_refused(files, tmp_path, monkeypatch):

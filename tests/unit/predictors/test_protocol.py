@@ -63,6 +63,7 @@ def card(architecture, weights, model="task_vector", finetune="none"):
         weights.name,
         32,
         finetune,
+        "fp32",
     )
 
 

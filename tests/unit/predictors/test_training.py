@@ -55,3 +55,16 @@ def test_more_components_than_features_and_fewer_examples_than_a_batch():
     heads, curves = fit(examples, [member], large, KEY)
     assert heads.architecture.inputs == 24
     assert np.isnan(curves[..., 1]).all()  # nothing to test on
+
+
+def test_splits_of_different_sizes_that_hold_fewer_examples_than_components():
+    examples = learning.examples("ignores_task")
+    members = [
+        Member("0", 0, np.arange(0, 60, 6), np.arange(3)),
+        Member("1", 0, np.arange(0, 60, 5), np.arange(2)),
+    ]
+    heads, curves = fit(
+        examples, members, replace(learning.SCHEDULE, components=500, epochs=2), KEY
+    )
+    assert np.isfinite(curves).all()
+    assert predict(heads, 1, examples, np.arange(4)).shape == (4, 6)

@@ -28,6 +28,14 @@ def test_similarity_by_row_and_mean():
     assert table.object.tolist() == ["mug", "mug", "mean"]
     # 45 degrees are half of the right angle at which nothing is alike.
     assert table.similarity.tolist() == [0.5, 1.0, 0.75]
+    assert table.resampled.tolist() == [1, 1, 1]  # of one type each
+
+
+def test_chance_is_what_as_many_draws_differ_by():
+    theirs = THEIRS[THEIRS.object == "pan"].assign(object="mug", task="use", count_large_wrap=1)
+    table = compare_distributions(samples_from_counts(OURS), theirs)
+    # Two draws of two types: half of them have both, the others are 45 degrees off.
+    assert table.resampled[0] == pytest.approx(0.75, abs=0.03)
 
 
 def test_no_common_sample_is_refused():

@@ -14,7 +14,8 @@ import mlflow
 import pandas as pd
 import pytest
 
-from grasptypes.params import read_yaml
+from grasptypes.errors import InputError
+from grasptypes.params import PARAMS_SCHEMA, read_yaml
 from grasptypes.predictors.metrics import METRICS
 from grasptypes.predictors.scoring import CURVE_SCHEMA, METRIC_SCHEMA
 from grasptypes.predictors.weights import WEIGHTS_VARIABLE
@@ -49,7 +50,7 @@ def results(tmp_path_factory):
     files = {
         "params.yaml": (PROJECT / "params.yaml").read_text(),
         str(record_path(CARD)): json.dumps({"rule": "train_predictor", "params": trained_with}),
-        "dvc.lock": "schema: '2.0'\n",
+        PARAMS_SCHEMA: (PROJECT / PARAMS_SCHEMA).read_text(),
         "data/samples.csv": "object,task\n",
         "data/folds.csv": "object,view,fold\n",
         "data/features/apple.npz": "a",
@@ -98,7 +99,7 @@ def runs(root):
     return {run.data.tags[KEY_TAG]: run for run in found}
 
 
-def test_every_run_names_commit_lock_and_data(results):
+def test_every_run_names_commit_and_data(results):
     publish(results)
     found = runs(results)
     assert len(found) == 3
@@ -106,11 +107,27 @@ def test_every_run_names_commit_lock_and_data(results):
         tags = run.data.tags
         assert tags["mlflow.source.git.commit"] == git(results, "rev-parse", "HEAD")
         assert tags["git.dirty"] == "False"
-        for name in ("dvc.lock", "data/samples.csv", "data/folds.csv", "data/backbone.json"):
+        for name in ("data/samples.csv", "data/folds.csv", "data/backbone.json"):
             expected = hashlib.sha256((results / name).read_bytes()).hexdigest()
             assert tags[f"sha256.{name}"] == expected
         assert tags["sha256.data/features"] == checksum(results / "data/features")
         assert "sha256.data/renders" not in tags  # not there
+
+
+def test_without_git_runs_name_no_commit(results, monkeypatch, tmp_path):
+    monkeypatch.setenv("PATH", str(tmp_path))
+    tags = version_tags(results)
+    assert "sha256.data/samples.csv" in tags
+    assert "mlflow.source.git.commit" not in tags
+
+
+def test_parameters_without_a_store_are_refused(results, tmp_path):
+    text = (results / "params.yaml").read_text()
+    (tmp_path / "params.yaml").write_text(text.replace("\ntracking:", "\ntrakcing:"))
+    (tmp_path / PARAMS_SCHEMA).parent.mkdir(parents=True)
+    (tmp_path / PARAMS_SCHEMA).write_text((results / PARAMS_SCHEMA).read_text())
+    with pytest.raises(InputError, match="trakcing"):
+        chosen_store(tmp_path)
 
 
 def test_folds_stand_one_level_below_their_model(results):

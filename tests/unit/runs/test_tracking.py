@@ -189,7 +189,7 @@ def test_a_logged_model_answers_like_the_predictor(template, tmp_path):
     shifts = {"use": 10, "handoff": -10}
     card = Card(
         "task_vector", "published", TYPES, tuple(shifts), shifts, sizes,
-        weights.backbone, weights.name, 32, "none",
+        weights.backbone, weights.name, 32, "none", "bf16",
     )  # fmt: skip
     files = tmp_path / "predictor.safetensors", tmp_path / "predictor.json"
     write_predictor(Heads(sizes, [("a",)]), None, card, *files)
@@ -200,6 +200,9 @@ def test_a_logged_model_answers_like_the_predictor(template, tmp_path):
     assert publish(template, [PARENT], {PARENT.key: ("content", model)}) == 0
     publish(template, [PARENT], {PARENT.key: ("content", model)})  # not logged twice
     client = mlflow.MlflowClient(f"sqlite:///{template.database}")
+    with template.opened() as opened:
+        run = opened.find(PARENT.key).info
+    assert (run.status, run.end_time) == ("FINISHED", PARENT.end_ms)  # of the training
     experiment = client.get_experiment_by_name("test").experiment_id
     (logged,) = client.search_logged_models([experiment])
     served = mlflow.pyfunc.load_model(logged.model_uri)

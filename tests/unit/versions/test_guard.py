@@ -69,14 +69,18 @@ def test_what_a_killed_run_left_is_removed(tmp_path: Path) -> None:
     lock = tmp_path / ".snakemake" / "locks" / "0.input.lock"
     half = tmp_path / "data" / "objects" / "mug" / ".surface.npz.4711.tmp"
     mine = tmp_path / "notes" / ".draft.tmp"
-    for path in (kept, lock, half, mine):
+    folder = tmp_path / "reports" / ".mug_plan.4711.tmp"
+    within = folder / "object" / ".mesh.4711.tmp"
+    for path in (kept, lock, half, mine, within):
         path.parent.mkdir(parents=True, exist_ok=True)
         path.touch()
-    assert remove_leftovers(tmp_path) == [lock, half]
+    assert set(remove_leftovers(tmp_path)) == {lock, half, folder, within}
     assert kept.exists()
     assert mine.exists()
     assert not lock.exists()
     assert not half.exists()
+    assert not folder.exists()
+    assert remove_leftovers(tmp_path) == []
 
 
 def test_a_folder_that_takes_nothing_is_named(tmp_path: Path) -> None:
