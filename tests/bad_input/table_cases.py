@@ -30,7 +30,8 @@ def csv(*changes: dict[str, str], drop: str = "", separator: str = ",") -> str:
 
 def published(what: str, content: str | bytes, *names: str) -> Case:
     """A table that GRASPTYPES_PUBLISHED_CSV names."""
-    replay = script("replay_grasps", "replay_grasps", "grasps.csv", [Path("mug.stl")], None, Path("replay.csv"))
+    arguments = "grasps.csv", [Path("mug.stl")], None, Path("replay.csv")
+    replay = script("replay_grasps", "replay_grasps", *arguments)
     return Case("published CSV", what, {"grasps.csv": content}, replay, ("grasps.csv", *names))
 
 
