@@ -75,7 +75,8 @@ def run(asked: argparse.Namespace) -> str:
     if asked.task not in params["tasks"]:
         allowed = ", ".join(params["tasks"])
         raise InputError("--task", asked.task, f"unknown; allowed: {allowed}")
-    _check_mass(asked.mass_kg, params["plan"])
+    if asked.mass_kg is not None:
+        _check_mass(asked.mass_kg, params["plan"], "--mass-kg", f"{asked.mass_kg:g}", "")
     output = asked.output or Path(f"{asked.object.stem}_{asked.task}_grasps")
     _check_output(output)
     with tempfile.TemporaryDirectory() as work:
@@ -111,6 +112,8 @@ def _plan(
 
     name, drawn = (printable(asked.object.stem), asked.task), (MESH_WORD, asked.task)
     properties = _prepare(asked, params, prepared)
+    weighs = f"is {properties.mass_kg:.3g} kg as a solid of water, "
+    _check_mass(properties.mass_kg, params["plan"], asked.object, "--mass-kg", weighs)
     wanted = Wanted(given, None) if given else _predict(predictor, name, params, prepared)
     sessions = asked.sessions or params["plan"]["sessions"]
     contact_params = {**params["contact_maps"], "sessions": sessions}
@@ -182,11 +185,13 @@ def _known_type(text: str, allowed: tuple[str, ...]) -> str:
     return kind
 
 
-def _check_mass(mass_kg: float | None, settings: Mapping[str, Any]) -> None:
+def _check_mass(
+    mass_kg: float, settings: Mapping[str, Any], named: str | Path, key: str, weighs: str
+) -> None:
     """Refuse what the hand cannot lift, and what nothing weighs that it can hold."""
     low, high = settings["min_mass_kg"], settings["max_mass_kg"]
-    if mass_kg is not None and not low <= mass_kg <= high:
-        raise InputError("--mass-kg", f"{mass_kg:g}", f"allowed are {low:g} to {high:g} kg")
+    if not low <= mass_kg <= high:
+        raise InputError(named, key, f"{weighs}allowed are {low:g} to {high:g} kg")
 
 
 def _check_output(folder: Path) -> None:
