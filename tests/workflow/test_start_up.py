@@ -9,7 +9,9 @@ from pathlib import Path
 import pytest
 from repository import ROOT, Repository
 
+from grasptypes.predictors.weights import WEIGHTS_VARIABLE
 from grasptypes.versions.guard import FolderLock
+from grasptypes.versions.job_records import record_path
 
 
 def test_the_main_job_is_complete_and_small(fresh: Repository) -> None:
@@ -57,6 +59,29 @@ def test_a_file_that_is_no_params_never_reaches_snakemake(
     assert lines[0].startswith("error: params.yaml: ")
     assert expected in lines[0]
     assert not (repository.path / "ran").exists()
+
+
+@pytest.mark.parametrize("library", ["torch", "mlflow", "trimesh", "matplotlib"])
+def test_a_dry_run_imports_nothing_that_takes_seconds(
+    fresh: Repository, tmp_path: Path, library: str
+) -> None:
+    (tmp_path / f"{library}.py").write_text("raise SystemExit('imported at the start')\n")
+    output = fresh.run("snakemake", "-n", PYTHONPATH=str(tmp_path))
+    assert "Job stats" in output
+
+
+@pytest.mark.parametrize("content", ["", "<<<<<<< HEAD\n", "[]", "{}"])
+def test_a_damaged_record_of_the_backbone_is_made_anew(
+    repository: Repository, monkeypatch: pytest.MonkeyPatch, content: str
+) -> None:
+    monkeypatch.delenv(WEIGHTS_VARIABLE, raising=False)
+    record = Path("data/backbone.json")
+    known = repository.path / record_path(str(record))
+    for path in (repository.path / record, known):
+        path.parent.mkdir(parents=True, exist_ok=True)
+    (repository.path / record).write_text(content)
+    known.write_text("{}")
+    assert repository.planned()["prepare_backbone"] == 1
 
 
 def test_a_cache_of_links_is_refused(repository: Repository) -> None:

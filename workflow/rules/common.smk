@@ -4,7 +4,6 @@ from grasptypes.labels.published_source import FETCHED, published_address, publi
 from grasptypes.objects.own_objects import measured_map
 from grasptypes.objects.reference_meshes import reference_meshes
 from grasptypes.objects.variants import all_objects, all_variants, base_of
-from grasptypes.predictors.learning_inputs import read_backbone_record
 from grasptypes.predictors.weights import DOWNLOAD_SHA256_START, WEIGHTS_VARIABLE, chosen_weights
 from grasptypes.start_up import check_start
 from grasptypes.versions.job_records import is_recorded
@@ -142,9 +141,9 @@ def weights_choice(record="data/backbone.json"):
     if WEIGHTS_VARIABLE in os.environ or not (Path(record).is_file() and is_recorded(record)):
         return chosen_weights()
     try:
-        found = read_backbone_record(record)
-    except InputError:  # damaged: it is made anew
+        found = json.loads(Path(record).read_text())
+        backbone, sha256 = found["backbone"], found["sha256"]
+    except (ValueError, KeyError, TypeError):  # damaged: it is made anew
         return chosen_weights()
-    downloaded = found.sha256.startswith(DOWNLOAD_SHA256_START)
-    by_default = downloaded or found.backbone != "mobilenet_v2"
-    return "default" if by_default else found.sha256[:16]
+    by_default = sha256.startswith(DOWNLOAD_SHA256_START) or backbone != "mobilenet_v2"
+    return "default" if by_default else sha256[:16]
