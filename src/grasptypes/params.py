@@ -33,6 +33,7 @@ class _StrictLoader(_SafeLoader):
     """A safe loader that takes text keys only, each once: YAML would let the last one win."""
 
     def construct_mapping(self, node: yaml.MappingNode, deep: bool = False) -> dict[Hashable, Any]:
+        """A mapping whose keys are texts, each there once."""
         seen = set()
         for key_node, _ in node.value:
             problem, kind = "", key_node.tag.split(":")[-1]
@@ -48,6 +49,7 @@ class _StrictLoader(_SafeLoader):
         return super().construct_mapping(node, deep)
 
     def construct_object(self, node: yaml.Node, deep: bool = False) -> Any:
+        """A value; what does not look like its kind is an error with a line number."""
         try:
             return super().construct_object(node, deep)
         except (ValueError, KeyError, AttributeError) as error:  # such as 2020-99-99, !!bool x

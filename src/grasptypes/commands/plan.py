@@ -112,8 +112,9 @@ def _plan(
 
     name, drawn = (printable(asked.object.stem), asked.task), (MESH_WORD, asked.task)
     properties = _prepare(asked, params, prepared)
-    weighs = f"is {properties.mass_kg:.3g} kg as a solid of water, "
-    _check_mass(properties.mass_kg, params["plan"], asked.object, "--mass-kg", weighs)
+    if asked.mass_kg is None:
+        weighs = f"is {properties.mass_kg:.3g} kg as a solid of water, "
+        _check_mass(properties.mass_kg, params["plan"], asked.object, "--mass-kg", weighs)
     wanted = Wanted(given, None) if given else _predict(predictor, name, params, prepared)
     sessions = asked.sessions or params["plan"]["sessions"]
     contact_params = {**params["contact_maps"], "sessions": sessions}

@@ -35,6 +35,7 @@ _NUMPY = {"_reconstruct", "scalar", "ndarray", "dtype", "_frombuffer"}
 
 class _ArrayUnpickler(pickle.Unpickler):
     def find_class(self, module: str, name: str) -> Any:
+        """What arrays are made of, and nothing else that a pickle may name."""
         if module.split(".")[0] == "numpy" and name in _NUMPY:
             return super().find_class(module, name)
         raise pickle.UnpicklingError(f"holds {module}.{name}, which is no array")

@@ -160,6 +160,7 @@ def fit_thresholds(judged: Judged, softness: Thresholds) -> Thresholds:
     widths = np.asarray(softness)[:, None]
 
     def loss(log_thresholds: Array) -> float:
+        """Less the mean chance that thresholds (4,) of soft edges give to people's types."""
         above = expit((measured - log_thresholds[:, None]) / widths)
         chance = _type_chances(*above)
         return -float(chance[judged.labels, np.arange(len(judged.labels))].mean())

@@ -52,6 +52,7 @@ def _text(text: str) -> str:
 
 def _one_of(allowed: tuple[str, ...]) -> Callable[[str], str]:
     def check(text: str) -> str:
+        """The cell as it is, if it is allowed."""
         if text not in allowed:
             raise ValueError(f"{text!r} is not one of {', '.join(allowed)}")
         return text

@@ -89,6 +89,7 @@ def _moved(model: ObjectModel, variation: Variation) -> ObjectModel:
     lower_m, upper_m, axis = boxes[:, 0].min(axis=0), boxes[:, 1].max(axis=0), taper_axis(boxes)
 
     def move(points: Array) -> Array:
+        """Where points (N, 3) of the object lie in the variant."""
         return variation.move(np.asarray(points), lower_m, upper_m, axis)
 
     parts = tuple(replace(part, solid=part.solid.warp_batch(move)) for part in model.parts)

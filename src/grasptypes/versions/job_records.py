@@ -62,6 +62,7 @@ def distrust_unrecorded(persistence: type[Any]) -> None:
     find_unfinished = persistence.incomplete
 
     async def incomplete(self: Any, job: Any) -> list[Any]:
+        """What Snakemake finds unfinished, and results without a record."""
         unfinished = await find_unfinished(self, job)
         unrecorded = [
             result
