@@ -28,7 +28,7 @@ from expected import (
 from mutations import Mutation, of_code, of_parameters
 from repository import ROOT, Repository, jobs
 
-from grasptypes.versions.provenance import CodeHash
+from grasptypes.content_hash import CodeHash
 
 TARGETS = ("all", *(name for name in KEPT if name.endswith(".csv")))
 WORKERS = 2

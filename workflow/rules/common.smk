@@ -7,7 +7,7 @@ from grasptypes.objects.variants import all_objects, all_variants, base_of
 from grasptypes.predictors.weights import DOWNLOAD_SHA256_START, WEIGHTS_VARIABLE, chosen_weights
 from grasptypes.start_up import check_start
 from grasptypes.versions.job_records import is_recorded
-from grasptypes.versions.provenance import CodeHash, FileHash
+from grasptypes.content_hash import CodeHash, FileHash
 
 PUBLISHED_COUNTS = "assets/published_labels.csv"
 

@@ -8,10 +8,10 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-import numba
 import numpy as np
 from numpy.typing import NDArray
 
+from grasptypes.compiled import compiled
 from grasptypes.hand import kinematics
 from grasptypes.synthesis.fields import Field, distance
 from grasptypes.synthesis.hand_model import FIRST_DISTAL, FIRST_PROXIMAL, HandModel
@@ -76,7 +76,7 @@ def close_fingers(
     return angles
 
 
-@numba.njit(cache=True)
+@compiled()
 def _slide(
     model: HandModel, grid: Field, poses: Array, approach: Array, reach_m: Array, touch_m: float
 ) -> Array:
@@ -104,14 +104,14 @@ def _slide(
     return travelled
 
 
-@numba.njit(cache=True)
+@compiled()
 def _least_gap(model: HandModel, grid: Field, link: int, pose: Array) -> float:
     """A lower bound of the distances of a link's points."""
     x, y, z = moved(pose, model.centres, link)
     return distance(grid, x, y, z) - model.radii[link]
 
 
-@numba.njit(cache=True, inline="always")
+@compiled(inline=True)
 def moved(pose: Array, points: Array, row: int) -> tuple[float, float, float]:
     """One of the points (n, 3), moved by a pose (3+, 4)."""
     x, y, z = points[row, 0], points[row, 1], points[row, 2]
@@ -122,7 +122,7 @@ def moved(pose: Array, points: Array, row: int) -> tuple[float, float, float]:
     )
 
 
-@numba.njit(cache=True, inline="always")
+@compiled(inline=True)
 def _turned(pose: Array, angle: float, result: Array) -> None:
     """Turn a pose (3+, 4) about its own z axis."""
     c, s = np.cos(angle), np.sin(angle)
@@ -133,7 +133,7 @@ def _turned(pose: Array, angle: float, result: Array) -> None:
         result[row, 3] = pose[row, 3]
 
 
-@numba.njit(cache=True)
+@compiled()
 def _close(
     model: HandModel, grid: Field, T_object_rest: Array, T_proximal_distal: Array,
     limits: Array, touch_m: float,
@@ -150,7 +150,7 @@ def _close(
     return angles
 
 
-@numba.njit(cache=True)
+@compiled()
 def _close_finger(
     model: HandModel, grid: Field, finger: int, T_object_rest: Array, T_proximal_distal: Array,
     limits: Array, touch_m: float,
@@ -194,14 +194,14 @@ def _close_finger(
     return angle, ratio * angle + lead
 
 
-@numba.njit(cache=True)
+@compiled()
 def _levers(model: HandModel, link: int) -> Array:
     """Distance of each of a link's points from the axis it turns about, its own z."""
     points = model.points[model.starts[link] : model.starts[link + 1]]
     return np.sqrt(points[:, 0] ** 2 + points[:, 1] ** 2)
 
 
-@numba.njit(cache=True)
+@compiled()
 def _composed(first: Array, second: Array, result: Array) -> None:
     for row in range(3):
         for column in range(4):
@@ -210,7 +210,7 @@ def _composed(first: Array, second: Array, result: Array) -> None:
                 result[row, column] += first[row, k] * second[k, column]
 
 
-@numba.njit(cache=True)
+@compiled()
 def _free_turn(
     model: HandModel, grid: Field, link: int, pose: Array, levers: Array, gaps: Array,
     step: float, touch_m: float,

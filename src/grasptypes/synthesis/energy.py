@@ -8,10 +8,10 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-import numba
 import numpy as np
 from numpy.typing import NDArray
 
+from grasptypes.compiled import compiled
 from grasptypes.hand import kinematics
 from grasptypes.poses import inverse
 from grasptypes.synthesis.closing import moved
@@ -127,7 +127,7 @@ def energies(
     return terms
 
 
-@numba.njit(cache=True)
+@compiled()
 def _contact_terms(
     model: HandModel, T_link_object: Array, points: Array, normals: Array, attracting: int,
     range_m: float, offset_m: float,
@@ -160,7 +160,7 @@ def _contact_terms(
     return result
 
 
-@numba.njit(cache=True)
+@compiled()
 def _faces(
     model: HandModel, pose: Array, link: int, points: Array, normals: Array, row: int,
     gap: float, offset_m: float,
@@ -180,7 +180,7 @@ def _faces(
     return abs(gap) * np.sqrt(max(1.0 - along * along, 0.0)) <= offset_m
 
 
-@numba.njit(cache=True)
+@compiled()
 def _closeness(model: HandModel, grid: Field, poses: Array) -> tuple[Array, Array]:
     links = len(model.radii)
     gaps = np.full((len(poses), links), np.inf)
@@ -203,7 +203,7 @@ def _closeness(model: HandModel, grid: Field, poses: Array) -> tuple[Array, Arra
     return gaps, depth
 
 
-@numba.njit(cache=True)
+@compiled()
 def _may_collide(link: int, other: int) -> bool:
     """Whether a finger's link can meet another one: not of its own finger, nor its own base.
 
@@ -217,7 +217,7 @@ def _may_collide(link: int, other: int) -> bool:
     return (link - FIRST_PROXIMAL) % 3 != other - 1 or link >= FIRST_DISTAL
 
 
-@numba.njit(cache=True)
+@compiled()
 def _overlap(model: HandModel, pose: Array, link: int, other_pose: Array, other: int) -> float:
     """Depth of a link's deepest point in another link, 0 if they do not overlap."""
     cx, cy, cz = moved(pose, model.centres, link)

@@ -12,10 +12,10 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-import numba
 import numpy as np
 from numpy.typing import NDArray
 
+from grasptypes.compiled import compiled
 from grasptypes.synthesis.closing import moved
 from grasptypes.synthesis.fields import Field, distance, gradient
 from grasptypes.synthesis.hand_model import HandModel
@@ -58,7 +58,7 @@ def imbalance(
     )  # fmt: skip
 
 
-@numba.njit(cache=True)
+@compiled()
 def _imbalance(
     model: HandModel, grid: Field, poses: Array, centre: Array, radius: float, friction: float,
     edges: int, contact_m: float, iterations: int,
@@ -83,7 +83,7 @@ def _imbalance(
     return result
 
 
-@numba.njit(cache=True)
+@compiled()
 def _cone(
     wrenches: Array, first: int, arm: tuple[float, float, float],
     normal: tuple[float, float, float], radius: float, friction: float, edges: int,
@@ -108,7 +108,7 @@ def _cone(
         row[5] = (arm[0] * fy - arm[1] * fx) / radius
 
 
-@numba.njit(cache=True)
+@compiled()
 def _least_norm(points: Array, iterations: int) -> float:
     """Least distance from the origin found in the convex hull of points (n, d): an upper bound."""
     current = points[0].copy()

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import NamedTuple
 
-import numba
 import numpy as np
 from numpy.typing import NDArray
 
+from grasptypes.compiled import compiled
 from grasptypes.objects.distance_grid import DistanceGrid
 
 Array = NDArray[np.float64]
@@ -59,7 +59,7 @@ def fields(grids: Sequence[DistanceGrid]) -> Fields:
     )
 
 
-@numba.njit(cache=True, inline="always")
+@compiled(inline=True)
 def _cell(coordinate: float, nodes: int) -> tuple[int, float, float]:
     """Lower node, weight of the upper one, and how far (in nodes) the point lies outside."""
     inside = min(max(coordinate, 0.0), nodes - 1.0)
@@ -67,7 +67,7 @@ def _cell(coordinate: float, nodes: int) -> tuple[int, float, float]:
     return lower, inside - lower, coordinate - inside
 
 
-@numba.njit(cache=True, inline="always")
+@compiled(inline=True)
 def _beyond(value: float, way_squared: float) -> float:
     """Lower bound of the distance at a point that lies a way outside of a box.
 
@@ -79,7 +79,7 @@ def _beyond(value: float, way_squared: float) -> float:
     return np.sqrt(value * value + way_squared)
 
 
-@numba.njit(cache=True)
+@compiled()
 def distance(grid: Field, x: float, y: float, z: float) -> float:
     """Signed distance at a point in metres, trilinear.
 
@@ -100,7 +100,7 @@ def distance(grid: Field, x: float, y: float, z: float) -> float:
     return _beyond((1 - u) * low + u * high, h * h * (a * a + b * b + c * c))
 
 
-@numba.njit(cache=True)
+@compiled()
 def distances(grid: Field, points: Array) -> Array:
     """Signed distances (n,) at points (n, 3), metres."""
     result = np.empty(len(points))
@@ -109,7 +109,7 @@ def distances(grid: Field, points: Array) -> Array:
     return result
 
 
-@numba.njit(cache=True)
+@compiled()
 def gradient(grid: Field, x: float, y: float, z: float) -> tuple[float, float, float]:
     """Unit vector away from the surface at a point, by central differences over one node."""
     h = 0.5 * grid.spacing
@@ -120,7 +120,7 @@ def gradient(grid: Field, x: float, y: float, z: float) -> tuple[float, float, f
     return gx / norm, gy / norm, gz / norm
 
 
-@numba.njit(cache=True)
+@compiled()
 def distance_in(grids: Fields, index: int, x: float, y: float, z: float) -> float:
     """As `distance`, in one of several grids."""
     values, starts, shapes, origins, h = grids

@@ -9,10 +9,10 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-import numba
 import numpy as np
 from numpy.typing import NDArray
 
+from grasptypes.compiled import compiled
 from grasptypes.labels.grasp_type import enclosed_diameters
 from grasptypes.synthesis.closing import moved
 from grasptypes.synthesis.fields import Field, distance, gradient
@@ -69,7 +69,7 @@ def deviation(
     return total
 
 
-@numba.njit(cache=True)
+@compiled()
 def _palm_and_push(
     model: HandModel, grid: Field, poses: Array, reach_m: float, closing_weight: float
 ) -> tuple[Array, Array]:
@@ -95,7 +95,7 @@ def _palm_and_push(
     return gaps, shares
 
 
-@numba.njit(cache=True)
+@compiled()
 def _nearest(
     model: HandModel, grid: Field, link: int, pose: Array
 ) -> tuple[float, tuple[float, float, float]]:
@@ -109,7 +109,7 @@ def _nearest(
     return least, nearest
 
 
-@numba.njit(cache=True)
+@compiled()
 def _push(grid: Field, point: tuple[float, float, float], base: Array, weight: float) -> Array:
     """Unit push at a point of a finger whose first joint turns about z of `base`."""
     gx, gy, gz = gradient(grid, point[0], point[1], point[2])

@@ -1,8 +1,12 @@
-"""Content hashes that stand as rule parameters, so that staleness never depends on file times."""
+"""Content hashes of files and of code: what results and machine code are valid for.
+
+They stand as rule parameters and key Numba's cache, so that staleness never depends on file times.
+"""
 
 from __future__ import annotations
 
 import ast
+import contextlib
 import functools
 import hashlib
 import json
@@ -14,8 +18,8 @@ from typing import Any
 
 from grasptypes.files import write_text
 
-_SOURCE = Path(__file__).resolve().parents[2]
-_PACKAGE = Path(__file__).resolve().parents[1].name
+_SOURCE = Path(__file__).resolve().parents[1]
+_PACKAGE = Path(__file__).resolve().parent.name
 # Memories of another version of this module, or of Python's syntax trees, may hold something else.
 _VERSION = f"{hashlib.sha256(Path(__file__).read_bytes()).hexdigest()[:16]} {sys.version_info[:2]}"
 
@@ -24,17 +28,18 @@ class FileMemory:
     """What a function makes of a file, remembered by inode, size and times.
 
     Args:
-        memory: a JSON file that keeps the results between calls; safe to delete.
         function: takes a path, returns what JSON can hold.
+        memory: a JSON file that keeps the results between processes; safe to delete. None: they
+            are kept for this process only.
     """
 
-    def __init__(self, memory: str | Path, function: Callable[[Path], Any]) -> None:
-        self.memory = Path(memory)
+    def __init__(self, function: Callable[[Path], Any], memory: str | Path | None = None) -> None:
         self.function = function
-        try:
-            self.known: dict[str, list] = json.loads(self.memory.read_text())
-        except (OSError, ValueError):
-            self.known = {}
+        self.memory = Path(memory) if memory is not None else None
+        self.known: dict[str, list[Any]] = {}
+        if self.memory is not None:
+            with contextlib.suppress(OSError, ValueError):  # not there yet, or damaged: start anew
+                self.known = json.loads(self.memory.read_text())
 
     def __call__(self, path: str | Path) -> Any:
         """The function's result for a file as it is now.
@@ -47,15 +52,16 @@ class FileMemory:
         known = self.known.get(str(path))
         if known is None or known[0] != stamp:
             known = self.known[str(path)] = [stamp, self.function(Path(path))]
-            write_text(self.memory, json.dumps(self.known))
+            if self.memory is not None:
+                write_text(self.memory, json.dumps(self.known))
         return known[1]
 
 
 class FileHash:
     """SHA-256 of files; see :class:`FileMemory`."""
 
-    def __init__(self, memory: str | Path) -> None:
-        self.read = FileMemory(memory, _sha256)
+    def __init__(self, memory: str | Path | None = None) -> None:
+        self.read = FileMemory(_sha256, memory)
 
     def __call__(self, path: str | Path) -> str:
         """The first 16 hex digits of the file's SHA-256, or ``"missing"``."""
@@ -72,8 +78,8 @@ class CodeHash:
     nothing; a changed statement anywhere below does. See :class:`FileMemory`.
     """
 
-    def __init__(self, memory: str | Path) -> None:
-        self.read = FileMemory(memory, _read)
+    def __init__(self, memory: str | Path | None = None) -> None:
+        self.read = FileMemory(_read, memory)
 
     def __call__(self, *scripts: str | Path) -> str:
         """The first 16 hex digits of a hash of the files' statements and of what they import."""

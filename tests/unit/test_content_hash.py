@@ -6,17 +6,17 @@ from pathlib import Path
 
 import pytest
 
-from grasptypes.versions.provenance import FileHash
+from grasptypes.content_hash import FileHash
 
-SOURCE = Path(__file__).parents[3] / "src"
+SOURCE = Path(__file__).parents[2] / "src"
 
 
 @pytest.fixture
 def checkout(tmp_path: Path) -> Path:
     """A small copy of the package with a script that imports one module, which imports another."""
     package = tmp_path / "src" / "grasptypes"
-    (package / "versions").mkdir(parents=True)
-    for name in ("__init__", "versions/__init__", "versions/provenance", "errors", "files"):
+    package.mkdir(parents=True)
+    for name in ("__init__", "content_hash", "errors", "files"):
         shutil.copy(SOURCE / "grasptypes" / f"{name}.py", package / f"{name}.py")
     (package / "used.py").write_text('"""Doc."""\nfrom grasptypes.deeper import two\n')
     (package / "deeper.py").write_text("def two():\n    return 2\n")
@@ -26,7 +26,7 @@ def checkout(tmp_path: Path) -> Path:
 
 
 def hash_of(checkout: Path) -> str:
-    code = "import sys; from grasptypes.versions.provenance import CodeHash"
+    code = "import sys; from grasptypes.content_hash import CodeHash"
     code += "; print(CodeHash('memory.json')(sys.argv[1]))"
     command = [sys.executable, "-c", code, str(checkout / "script.py")]
     environment = {
