@@ -14,7 +14,7 @@ min_version("9.17")
 sys.path.insert(0, str(Path(workflow.basedir) / "src"))
 
 from grasptypes.errors import InputError
-from grasptypes.params import read_yaml, validate_params
+from grasptypes.settings.params import Params, read_params
 from grasptypes.runs.due import note_due, publish_what_is_due, publishing_is_due
 from grasptypes.versions.guard import FolderLock, remove_leftovers, use_this_checkout
 from grasptypes.versions.job_records import distrust_unrecorded
@@ -28,8 +28,7 @@ try:
             was_due = publishing_is_due(Path.cwd())
         distrust_unrecorded(PersistenceBase)
     # Before Snakemake reads them: it lets a duplicate key pass, and runs code if `__use_yte__` is set.
-    SCHEMA = read_yaml(Path(workflow.basedir) / "workflow" / "schemas" / "params.schema.yaml")
-    validate_params(read_yaml("params.yaml"), SCHEMA)
+    read_params("params.yaml")
 except InputError as error:
     sys.exit(f"error: {error}")
 

@@ -14,8 +14,8 @@ from typing import Any
 
 from benchmarks.figures import FIGURE_SCHEMA, Figure, NotReady, header, line, table
 
-from grasptypes.params import read_yaml
 from grasptypes.tables import write_table
+from grasptypes.yaml_files import read_yaml
 
 TABLE = Path("reports/benchmarks.csv")
 SETTINGS = Path(__file__).with_name("settings.yaml")

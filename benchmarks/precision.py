@@ -14,7 +14,6 @@ import numpy as np
 import pandas as pd
 
 from grasptypes.labels.samples import samples_from_counts
-from grasptypes.params import read_yaml
 from grasptypes.predictors.backbone import load_backbone
 from grasptypes.predictors.examples import assemble
 from grasptypes.predictors.features import encodings, extract, read_pictures
@@ -24,6 +23,7 @@ from grasptypes.predictors.predictor import VARIANTS
 from grasptypes.predictors.protocol import recipe_of, try_splits
 from grasptypes.predictors.training import members_by_group
 from grasptypes.predictors.weights import find_weights
+from grasptypes.yaml_files import read_yaml
 
 RENDERS, LABELS = Path("data/renders"), Path("assets/published_labels.csv")
 PRECISIONS = ("fp32", "bf16")

@@ -32,9 +32,9 @@ import pandas as pd
 import pandera.pandas as pa
 import yaml
 
-from grasptypes.params import merge, read_yaml
 from grasptypes.tables import read_table, write_table
 from grasptypes.versions.checkout import copy_checkout
+from grasptypes.yaml_files import merge, read_yaml
 
 ROOT = Path(__file__).parents[1]
 FOLDER = ROOT / "build/scaling"

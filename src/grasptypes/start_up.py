@@ -4,29 +4,23 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
 
 from grasptypes.contact_maps.affinities import Hold, read_affinities
 from grasptypes.labels.published_source import check_published
 from grasptypes.objects.own_objects import check_every_hold, check_own_objects
 from grasptypes.objects.reference_meshes import reference_meshes
-from grasptypes.objects.variants import check_variation
-from grasptypes.params import validate_params
-from grasptypes.predictors.own_tasks import check_tasks
+from grasptypes.settings.objects import CATALOGUE
+from grasptypes.settings.params import Params
 from grasptypes.versions.guard import check_cache_links
 
 
 def check_start(
-    params: Mapping[str, Any],
-    schema: Mapping[str, Any],
-    root: str | Path,
-    environment: Mapping[str, str],
+    params: Params, root: str | Path, environment: Mapping[str, str]
 ) -> dict[tuple[str, str], tuple[Hold, ...]]:
-    """Check the parameters, the files they name, and the user's settings.
+    """Check the files that the parameters name, and the user's settings.
 
     Args:
-        params: content of params.yaml, with what the command line changes.
-        schema: content of workflow/schemas/params.schema.yaml.
+        params: those of params.yaml, with what the command line changes.
         root: of the checkout.
         environment: variables of the process.
 
@@ -37,14 +31,9 @@ def check_start(
         InputError: the first mistake.
     """
     check_cache_links(root)
-    validate_params(params, schema)
-    objects, tasks = params["objects"], list(params["tasks"])
-    check_tasks(params["tasks"])
-    check_variation(objects)
-    check_own_objects(objects, tasks)
-    table = params["contact_maps"]["affinities"]
-    catalogue = schema["properties"]["objects"]["properties"]["names"]["items"]["enum"]
-    holds = read_affinities(table, [*catalogue, *objects["own"]], tasks)
+    objects, tasks, table = params.objects, list(params.tasks), params.contact_maps.affinities
+    check_own_objects(objects)
+    holds = read_affinities(table, [*CATALOGUE, *objects.own], tasks)
     check_every_hold(objects, tasks, holds, table)
     check_published(environment)
     reference_meshes(environment)

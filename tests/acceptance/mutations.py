@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 import yaml
 
 from grasptypes.errors import InputError
-from grasptypes.params import validate_params
+from grasptypes.settings.params import Params
 
 Key = tuple[str | int, ...]
 
@@ -38,7 +38,6 @@ def of_parameters(
         left_out: keys that are not to be changed.
     """
     params = yaml.safe_load((root / "params.yaml").read_text())
-    schema = yaml.safe_load((root / "workflow/schemas/params.schema.yaml").read_text())
     for key in leaves(params):
         name = ".".join(map(str, key))
         if name in left_out:
@@ -47,7 +46,7 @@ def of_parameters(
         tries = [special[name]] if name in special else _others(old)
         for value in tries:
             changed = _with(params, key, value)
-            if value != old and _is_allowed(changed, schema):
+            if value != old and _is_allowed(changed):
                 yield Mutation(name, "params.yaml", yaml.safe_dump(changed, sort_keys=False))
                 break
         else:
@@ -103,9 +102,9 @@ def _with(params: Any, key: Key, value: Any) -> Any:
     return copy
 
 
-def _is_allowed(params: Any, schema: Any) -> bool:
+def _is_allowed(params: Any) -> bool:
     try:
-        validate_params(params, schema)
+        Params.check(params)
     except InputError:
         return False
     return True

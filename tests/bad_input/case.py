@@ -14,11 +14,11 @@ from typing import Any
 
 from grasptypes.errors import InputError
 from grasptypes.jobs import job
-from grasptypes.params import load_params, read_yaml
+from grasptypes.settings.params import read_params
 from grasptypes.start_up import check_start
+from grasptypes.yaml_files import read_yaml
 
 ROOT = Path(__file__).parents[2]
-SCHEMA = ROOT / "workflow/schemas/params.schema.yaml"
 PARAMS = read_yaml(ROOT / "params.yaml")
 
 Content = bytes | str | Callable[[Path], object]
@@ -102,7 +102,7 @@ def _end_of(case: Case) -> tuple[int, str]:
 def start() -> None:
     """What the Snakefile does before anything else."""
     try:
-        check_start(load_params("params.yaml", SCHEMA), read_yaml(SCHEMA), ".", os.environ)
+        check_start(read_params("params.yaml"), ".", os.environ)
     except InputError as error:
         sys.exit(f"error: {error}")
 

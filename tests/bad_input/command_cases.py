@@ -18,8 +18,7 @@ from grasptypes.exchange.multigrippergrasp import read_grasps
 from grasptypes.runs import publishing
 from grasptypes.versions import checkout, prune
 
-SCHEMA = "workflow/schemas/params.schema.yaml"
-FOLDER = {name: (ROOT / name).read_bytes() for name in ("params.yaml", SCHEMA)}
+FOLDER = {"params.yaml": (ROOT / "params.yaml").read_bytes()}
 ASK = ("predict", "--image", "cup.png", "--task", "use")
 MODEL = "models/simulated/task_vector"
 

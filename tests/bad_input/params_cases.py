@@ -7,7 +7,7 @@ from typing import Any
 import yaml
 from case import PARAMS, ROOT, Case, start
 
-from grasptypes.params import merge
+from grasptypes.yaml_files import merge
 
 AFFINITIES = {"assets/affinities.csv": (ROOT / "assets/affinities.csv").read_bytes()}
 BOX = {"file": "box.stl", "unit": "mm", "mass_kg": 0.1}
@@ -50,9 +50,9 @@ CASES = [
     text("a tag its value does not fit", "seed: !!int many\n", "line 1", "'many'"),
     text("a date that does not exist", "seed: 2020-99-99\n", "line 1", "2020-99-99"),
     text("Python for Snakemake to run", "__use_yte__: true\n?open('ran', 'w'): 1\n", "__use_yte__"),
-    change("an unknown section", {"sed": 1}, "'sed' was unexpected", "allowed: "),
+    change("an unknown section", {"sed": 1}, "'sed' is not a known key", "allowed: "),
     change("an unknown key", {"tasks": {"use": {"color_shift": 1}}}, "tasks.use", "colour_shift"),
-    text("a missing section", "seed: 1\n", "'tasks' is a required property"),
+    text("a missing section", "seed: 1\n", "'tasks' is missing"),
     change("a wrong type", {"seed": "one"}, "seed", "whole number"),
     change("a seed with a decimal point", {"seed": 0.0}, "seed", "whole number"),
     change("a count with a decimal point", {"renders": {"views": 100.0}}, "renders.views", "100.0"),

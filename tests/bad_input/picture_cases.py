@@ -32,9 +32,6 @@ def picture(what: str, content: Content, *names: str, name: str = "cup.png") -> 
     files = {
         name: content,
         "params.yaml": (ROOT / "params.yaml").read_bytes(),
-        "workflow/schemas/params.schema.yaml": (
-            ROOT / "workflow/schemas/params.schema.yaml"
-        ).read_bytes(),
     }
     call = command("predict", "--image", name, "--task", "use")
     return Case("picture", what, files, call, (name, *names))

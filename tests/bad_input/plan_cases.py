@@ -10,7 +10,7 @@ from map_cases import ply, spread
 from mesh_cases import STL, TEXT_PLY
 from picture_cases import command
 
-from grasptypes.params import merge
+from grasptypes.yaml_files import merge
 
 # A cube that no hand spans, and parameters that make little work of it.
 HALL = trimesh.creation.box((0.9, 0.9, 0.9)).export(file_type="stl")

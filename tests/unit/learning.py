@@ -8,9 +8,9 @@ import numpy as np
 import pandas as pd
 import torch
 import yaml
+from tests.unit.settings import RAW
 
 from grasptypes.labels.samples import COUNTS, TYPES, samples_from_counts
-from grasptypes.params import merge, read_yaml
 from grasptypes.predictors.backbone import KINDS, untrained_backbone
 from grasptypes.predictors.examples import Examples, assemble
 from grasptypes.predictors.features import NO_TASK
@@ -21,6 +21,7 @@ from grasptypes.predictors.predictor_files import Card, write_predictor
 from grasptypes.predictors.protocol import Recipe
 from grasptypes.predictors.training import Schedule
 from grasptypes.predictors.weights import Weights, weights_file
+from grasptypes.yaml_files import merge
 
 ROOT = Path(__file__).parents[2]
 SHIFTS = {"use": 10, "handoff": -10, "wash": 20}
@@ -106,9 +107,6 @@ def small_checkout(root: Path, changes: dict) -> Weights:
     weights = random_weights(root / "random.pth")
     for model in ("task_vector", "no_task"):
         small_predictor(root / "models/simulated" / model, weights, model)
-    params = merge(read_yaml(ROOT / "params.yaml"), changes)
+    params = merge(RAW, changes)
     (root / "params.yaml").write_text(yaml.safe_dump(params, sort_keys=False))
-    schema = Path("workflow/schemas/params.schema.yaml")
-    (root / schema).parent.mkdir(parents=True)
-    (root / schema).write_bytes((ROOT / schema).read_bytes())
     return weights

@@ -6,10 +6,10 @@ from pathlib import Path
 import numpy as np
 import trimesh
 from numpy.typing import ArrayLike
+from tests.unit.settings import RAW
 
 from grasptypes.objects.distance_grid import DistanceGrid
 from grasptypes.objects.object_files import write_collision
-from grasptypes.params import read_yaml
 from grasptypes.synthesis.candidates import Person
 from grasptypes.synthesis.fields import Field, field
 from grasptypes.synthesis.hand_model import HandModel, hand_model
@@ -18,7 +18,7 @@ from grasptypes.synthesis.search import Thing
 
 ROOT = Path(__file__).parents[2]
 URDF = ROOT / "assets" / "barrett_hand" / "barrett_hand.urdf"
-PARAMS = read_yaml(ROOT / "params.yaml")
+PARAMS = RAW
 RADIUS_M = 0.03
 
 

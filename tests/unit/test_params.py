@@ -1,96 +1,126 @@
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
-import yaml
+from tests.unit.settings import PARAMS, RAW
 
 from grasptypes.errors import InputError
-from grasptypes.params import load_params, merge, read_yaml, validate_params
+from grasptypes.settings.base import Settings
+from grasptypes.settings.params import Params, read_params
+from grasptypes.settings.schema import PLACE, write_schema
+from grasptypes.yaml_files import merge, read_yaml
 
 ROOT = Path(__file__).parents[2]
-SCHEMA = read_yaml(ROOT / "workflow/schemas/params.schema.yaml")
+BOX = {"file": "box.stl", "unit": "m", "mass_kg": 0.1}
 
 
-def params() -> dict:
-    return read_yaml(ROOT / "params.yaml")
-
-
-def test_committed_params_meet_the_schema() -> None:
-    assert load_params(ROOT / "params.yaml", ROOT / "workflow/schemas/params.schema.yaml")
+def test_the_parameters_of_the_project_are_allowed():
+    assert read_params(ROOT / "params.yaml").labels == ("simulated", "published")
 
 
 @pytest.mark.parametrize(
-    ("change", "key", "allowed"),
+    ("change", "line"),
     [
-        ({"sed": 1}, "params.yaml", "allowed: "),
-        ({"seed": "one"}, "seed", "whole number"),
-        ({"seed": -1}, "seed", "minimum"),
-        ({"tasks": ["use"]}, "tasks", "object"),
-        ({"tasks": {"use": {"colour_shift": 999}}}, "tasks.use.colour_shift", "255"),
-        ({"tasks": {"use": {"color_shift": 10}}}, "tasks.use", "colour_shift"),
-        ({"tasks": {"Bad Name": {"colour_shift": 1}}}, "tasks", "Bad Name"),
-        ({"objects": {"scale": 0}}, "objects.scale", "0"),
-        ({"objects": {"names": ["mug", "teapot"]}}, "objects.names.1", "utah_teapot"),
+        ({"tasks": {"use": {"color_shift": 10}}}, "tasks.use: 'color_shift' is not a known key"),
+        ({"seed": "one"}, "seed: 'one' is not a whole number (whole number, part of the key"),
+        ({"seed": -1}, "seed: -1 is less than the minimum of 0 ("),
+        ({"tasks": ["use"]}, "tasks: ['use'] is not a mapping"),
+        ({"tasks": {"use": {"colour_shift": 999}}}, "tasks.use.colour_shift: 999 is greater than"),
+        ({"tasks": {"Bad Name": {"colour_shift": 1}}}, "tasks: 'Bad Name' is no name: use"),
+        ({"tasks": {"none": {"colour_shift": 1}}}, "tasks.none: 'none' stands for no task"),
+        ({"tasks": {"give": {"colour_shift": 10}}}, "tasks.give.colour_shift: 10 is that of use"),
+        ({"objects": {"scale": 0}}, "objects.scale: 0 is not greater than 0 (size relative to"),
+        ({"objects": {"names": ["mug", "pot"]}}, "objects.names.1: 'pot' is not in the catalogue"),
+        ({"objects": {"names": []}}, "objects.names: is empty, and so is objects.own"),
+        ({"objects": {"variation": {"size": [2, 1]}}}, "objects.variation.size: 2 is above 1"),
+        ({"objects": {"own": {"mug": BOX}}}, "objects.own.mug: is also in objects.names"),
         (
-            {"objects": {"own": {"box": {"file": "box.stl", "unit": "m"}}}},
-            "objects.own.box",
-            "exactly one of density_kg_m3 and mass_kg",
+            {"objects": {"own": {"box": BOX | {"density_kg_m3": 1}}}},
+            "objects.own.box: needs exactly one of density_kg_m3 and mass_kg",
         ),
+        (
+            {"objects": {"own": {"box": BOX | {"contact_maps": {"drink": "d.ply"}}}}},
+            "objects.own.box.contact_maps: 'drink' is not one of use, handoff",
+        ),
+        (
+            {"objects": {"resolution": {"grid_spacing_m": 1}}},
+            "objects.resolution.grid_spacing_m: 1 is greater than the maximum of 0.01 (distance "
+            "between nodes of the distance grid, metres)",
+        ),
+        ({"labels": []}, "labels: [] has 0 values, at least 1 are needed"),
+        ({"predictors": {"hidden": [1, 2]}}, "predictors.hidden: has 2 values, more are needed"),
+        ({"renders": {"fill": float("nan")}}, "renders.fill: nan is not a finite number"),
     ],
 )
-def test_wrong_value_is_named_in_one_line(change: dict, key: str, allowed: str) -> None:
+def test_the_first_mistake_is_one_line(change: dict, line: str):
     with pytest.raises(InputError) as raised:
-        validate_params(merge(params(), change), SCHEMA)
-    line = str(raised.value)
-    assert line.startswith("params.yaml")
-    assert key in line
-    assert allowed in line
-    assert "\n" not in line
+        Params.check(merge(RAW, change), "my.yaml")
+    assert str(raised.value).startswith(f"my.yaml: {line}")
+    assert "\n" not in str(raised.value)
+
+
+def test_an_unknown_section_is_told_before_the_missing_one_it_stands_for():
+    changed = {**RAW, "sed": RAW["seed"]}
+    del changed["seed"]
+    with pytest.raises(InputError, match=r"'sed' is not a known key; allowed: .*, seed, "):
+        Params.check(changed)
+
+
+def test_settings_are_constant_and_survive_a_round_trip():
+    with pytest.raises(ValueError, match="frozen"):
+        PARAMS.seed = 1
+    assert Params.check(PARAMS.model_dump(by_alias=True)) == PARAMS
+
+
+def sections(section: type[Settings]):
+    yield section
+    for field in section.model_fields.values():
+        if isinstance(field.annotation, type) and issubclass(field.annotation, Settings):
+            yield from sections(field.annotation)
+
+
+@pytest.mark.parametrize("section", list(sections(Params)), ids=lambda section: section.__name__)
+def test_every_key_says_what_it_means(section):
+    for name, field in section.model_fields.items():
+        inner = isinstance(field.annotation, type) and issubclass(field.annotation, Settings)
+        assert inner or field.description, name
+
+
+def test_the_schema_for_editors_is_that_of_the_settings(tmp_path):
+    write_schema(tmp_path / "schema.json")
+    assert (tmp_path / "schema.json").read_text() == (ROOT / PLACE).read_text()
+
+
+def test_settings_import_no_heavy_library():
+    code = "import sys, grasptypes.settings.params; print(*sys.modules)"
+    found = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert not {"numpy", "torch", "numba", "trimesh", "scipy"} & set(found.stdout.split())
 
 
 @pytest.mark.parametrize(
     ("text", "problem"),
     [
-        ("", "mapping"),
-        ("- a\n- b\n", "mapping"),
-        ("seed: 1\nseed: 2\n", "'seed' is there twice"),
-        ("seed: [1\n", "not valid YAML"),
-        ("seed: !!python/object/apply:os.system [ls]\n", "not valid YAML"),
+        (b"", "must hold a mapping"),
+        (b"- a\n- b\n", "must hold a mapping"),
+        (b"seed: 1\nseed: 2\n", "line 2: .*'seed' is there twice"),
+        (b"seed: [1\n", "not valid YAML"),
+        (b"seed: !!python/object/apply:os.system [ls]\n", "not valid YAML"),
+        (b"\xff\xfe\x00", "UTF-8"),
+        (None, "no such file"),
     ],
 )
-def test_unusable_yaml_is_refused(tmp_path: Path, text: str, problem: str) -> None:
+def test_unusable_yaml_is_refused(tmp_path: Path, text: bytes | None, problem: str):
     path = tmp_path / "params.yaml"
-    path.write_text(text)
+    if text is not None:
+        path.write_bytes(text)
     with pytest.raises(InputError, match=problem) as raised:
         read_yaml(path)
     assert str(path) in str(raised.value)
     assert "\n" not in str(raised.value)
 
 
-def test_missing_and_binary_files_are_refused(tmp_path: Path) -> None:
-    with pytest.raises(InputError, match="no such file"):
-        read_yaml(tmp_path / "nowhere.yaml")
-    (tmp_path / "binary.yaml").write_bytes(b"\xff\xfe\x00")
-    with pytest.raises(InputError, match="UTF-8"):
-        read_yaml(tmp_path / "binary.yaml")
-
-
-def test_merge_replaces_lists_and_keeps_the_rest() -> None:
+def test_merge_replaces_lists_and_keeps_the_rest():
     base = {"a": {"x": [1, 2], "y": 3}, "b": 4}
     assert merge(base, {"a": {"x": [5]}}) == {"a": {"x": [5], "y": 3}, "b": 4}
     assert base == {"a": {"x": [1, 2], "y": 3}, "b": 4}
-
-
-def leaves(schema: dict, path: str = "") -> list[tuple[str, dict]]:
-    if "properties" in schema:
-        found = []
-        for key, value in schema["properties"].items():
-            found += leaves(value, f"{path}.{key}")
-        return found
-    return [(path, schema)]
-
-
-def test_every_key_has_a_description_and_sections_are_closed() -> None:
-    for path, schema in leaves(SCHEMA):
-        assert "description" in schema or "$ref" in schema, path
-    text = (ROOT / "workflow/schemas/params.schema.yaml").read_text()
-    assert yaml.safe_load(text)["additionalProperties"] is False

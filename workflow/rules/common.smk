@@ -12,10 +12,11 @@ from grasptypes.content_hash import CodeHash, FileHash
 PUBLISHED_COUNTS = "assets/published_labels.csv"
 
 try:
-    HOLDS = check_start(config, SCHEMA, workflow.basedir, os.environ)
+    PARAMS = Params.check(config)
+    HOLDS = check_start(PARAMS, workflow.basedir, os.environ)
     PUBLISHED_CSV = published_path(os.environ) or []
     REFERENCE_MESHES = [str(path) for path in reference_meshes(os.environ)]
-    OBJECTS, VARIANTS = all_objects(config["objects"]), all_variants(config["objects"])
+    OBJECTS, VARIANTS = all_objects(PARAMS.objects), all_variants(PARAMS.objects)
     TASKS = list(config["tasks"])
     KNOWN = label_sources(config["labels"], PUBLISHED_COUNTS, OBJECTS, TASKS)
 except InputError as error:
@@ -94,7 +95,7 @@ def own_mesh(wildcards):
 
 def measured_input(wildcards):
     """The contact map measured for an own object and task; most have none."""
-    return measured_map(config["objects"], wildcards.object, wildcards.task) or []
+    return measured_map(PARAMS.objects, wildcards.object, wildcards.task) or []
 
 
 def contact_settings(wildcards):

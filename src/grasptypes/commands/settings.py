@@ -10,7 +10,8 @@ from pathlib import Path
 from typing import Any
 
 from grasptypes.errors import InputError
-from grasptypes.params import PARAMS_SCHEMA, load_params
+from grasptypes.settings.params import Params
+from grasptypes.yaml_files import read_yaml
 
 PARAMS = "params.yaml"
 # Draws for a user's mesh depend on this word, so that its file's name does not change the answer.
@@ -45,7 +46,9 @@ def folder_params(folder: Path) -> dict[str, Any]:
     """
     if not (folder / PARAMS).is_file():
         raise InputError(folder / PARAMS, "", "no such file; name a checkout with --folder")
-    return load_params(folder / PARAMS, folder / PARAMS_SCHEMA)
+    params = read_yaml(folder / PARAMS)
+    Params.check(params, folder / PARAMS)
+    return params
 
 
 def check_target(path: Path, suffix: str) -> None:

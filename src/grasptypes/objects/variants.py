@@ -3,11 +3,8 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
-from pathlib import Path
-from typing import Any
 
-from grasptypes.errors import InputError
+from grasptypes.settings.objects import ObjectSettings
 
 _NAME = re.compile(r"(.+)_v(\d\d)")
 
@@ -28,25 +25,11 @@ def base_of(name: str) -> str:
     return variant_of(name)[0]
 
 
-def all_variants(objects: Mapping[str, Any]) -> list[str]:
+def all_variants(objects: ObjectSettings) -> list[str]:
     """Names of the variants that the section `objects` of the parameters asks for."""
-    return [
-        variant for name in objects["names"] for variant in variant_names(name, objects["variants"])
-    ]
+    return [variant for name in objects.names for variant in variant_names(name, objects.variants)]
 
 
-def all_objects(objects: Mapping[str, Any]) -> list[str]:
+def all_objects(objects: ObjectSettings) -> list[str]:
     """Every object of the parameters: those of the catalogue, their variants, the user's own."""
-    return [*objects["names"], *all_variants(objects), *objects["own"]]
-
-
-def check_variation(objects: Mapping[str, Any], path: str | Path = "params.yaml") -> None:
-    """Check that every range of `objects.variation` runs upwards.
-
-    Raises:
-        InputError: naming the first that does not.
-    """
-    for key, (low, high) in objects["variation"].items():
-        if low > high:
-            message = f"{low:g} is above {high:g}: the smaller comes first"
-            raise InputError(path, f"objects.variation.{key}", message)
+    return [*objects.names, *all_variants(objects), *objects.own]

@@ -20,7 +20,6 @@ import numpy as np
 import grasptypes.errors
 from grasptypes.downloads import file_sha256
 from grasptypes.errors import InputError
-from grasptypes.params import PARAMS_SCHEMA, load_params
 from grasptypes.predictors.features import read_pictures
 from grasptypes.predictors.learning_inputs import read_backbone_record, recorded_weights
 from grasptypes.predictors.metrics import METRICS
@@ -29,6 +28,7 @@ from grasptypes.predictors.weights import Weights
 from grasptypes.runs.due import note_done
 from grasptypes.runs.run_records import Finished, run_record, serving_requirements
 from grasptypes.runs.tracking import LoggedModel, Store, publish
+from grasptypes.settings.params import read_params
 from grasptypes.versions.job_records import recorded_params
 
 logger = logging.getLogger(__name__)
@@ -151,8 +151,8 @@ def chosen_store(root: Path) -> Store:
     Raises:
         InputError: the parameters cannot be read.
     """
-    settings = load_params(root / "params.yaml", root / PARAMS_SCHEMA)["tracking"]
-    return Store(root / settings["database"], settings["experiment"], settings["patience_s"])
+    settings = read_params(root / "params.yaml").tracking
+    return Store(root / settings.database, settings.experiment, settings.patience_s)
 
 
 def publish_folder(root: Path, store: Store) -> None:

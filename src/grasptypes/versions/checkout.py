@@ -15,7 +15,7 @@ import yaml
 
 from grasptypes.errors import InputError
 from grasptypes.files import write_text
-from grasptypes.params import merge, read_yaml
+from grasptypes.yaml_files import merge, read_yaml
 
 
 def copy_checkout(source: str | Path, target: str | Path, changes: str | Path) -> None:

@@ -17,7 +17,7 @@ from pathlib import Path
 from grasptypes.errors import InputError
 from grasptypes.labels.label_sources import SOURCES
 from grasptypes.objects.variants import all_objects
-from grasptypes.params import PARAMS_SCHEMA, load_params
+from grasptypes.settings.params import read_params
 from grasptypes.versions.guard import FolderLock
 from grasptypes.versions.job_records import RECORDS, recorded_result
 
@@ -101,13 +101,13 @@ def main() -> None:
     logging.basicConfig(level=logging.INFO, format="%(message)s")
     try:
         # Checked whole: a typing error must not pass for a removed object.
-        params = load_params("params.yaml", PARAMS_SCHEMA)
+        params = read_params("params.yaml")
         lock = FolderLock()
         if not lock.take():  # and who holds it has been said
             sys.exit(1)
     except InputError as error:
         sys.exit(f"error: {error}")
-    objects, tasks, labels = all_objects(params["objects"]), params["tasks"], params["labels"]
+    objects, tasks, labels = all_objects(params.objects), params.tasks, params.labels
     for path in prune(".", objects, tasks, labels):
         logger.info("removed %s, which is no longer in params.yaml", path)
 

@@ -6,15 +6,15 @@ from pathlib import Path
 import numpy as np
 import pytest
 import trimesh
+from tests.unit.settings import RAW
 
 from grasptypes.contact_maps.affinities import Hold
 from grasptypes.contact_maps.contact_map import draw_session, map_contacts, sample_surface
 from grasptypes.contact_maps.contact_map_files import read_contact_map, write_contact_map
 from grasptypes.errors import InputError
-from grasptypes.params import read_yaml
 
 ROOT = Path(__file__).parents[3]
-PARAMS = read_yaml(ROOT / "params.yaml")["contact_maps"]
+PARAMS = RAW["contact_maps"]
 SMALL = PARAMS | {"sessions": 4, "population": 6}
 RADIUS_M, HEIGHT_M = 0.03, 0.30
 NAMES = ["lower", "upper"]

@@ -1,11 +1,11 @@
 """Measured maps of simple bodies: sessions must lie where the body was made warm."""
 
 from dataclasses import fields
-from pathlib import Path
 
 import numpy as np
 import pytest
 import trimesh
+from tests.unit.settings import RAW
 
 from grasptypes.contact_maps.contact_map import ContactMap, sample_surface
 from grasptypes.contact_maps.contact_map_files import read_contact_map, write_contact_map
@@ -15,9 +15,8 @@ from grasptypes.contact_maps.measured_contacts import (
     sigmoid,
 )
 from grasptypes.errors import InputError
-from grasptypes.params import read_yaml
 
-PARAMS = read_yaml(Path(__file__).parents[3] / "params.yaml")["contact_maps"] | {"sessions": 4}
+PARAMS = RAW["contact_maps"] | {"sessions": 4}
 RADIUS_M, HEIGHT_M = 0.03, 0.30
 
 

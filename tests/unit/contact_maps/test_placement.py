@@ -5,13 +5,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import trimesh
+from tests.unit.settings import RAW
 
 from grasptypes.contact_maps.affinities import Hold
 from grasptypes.contact_maps.handprint import Hand, Surface, handprint
 from grasptypes.contact_maps.placement import place_hand
-from grasptypes.params import read_yaml
 
-PARAMS = read_yaml("params.yaml")["contact_maps"]
+PARAMS = RAW["contact_maps"]
 HAND = Hand.of_length(0.19, PARAMS["hand"])
 STILL = {"tilt_sd_rad": 0.0, "roll_sd_rad": 0.0, "slice_m": 0.01, "depth_m": 0.01}
 HOLD = Hold((), "wrap", "around", "z", 0.25, 0.25, 1.0, "test")

@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 import pytest
+from tests.unit.settings import RAW
 
 from grasptypes.labels.agreement import (
     AGREEMENT_SCHEMA,
@@ -23,7 +24,6 @@ from grasptypes.labels.contacts import ContactSettings
 from grasptypes.labels.grasp_type import Measures, Thresholds, classify
 from grasptypes.labels.published import read_published
 from grasptypes.labels.published_objects import object_distances
-from grasptypes.params import read_yaml
 
 ROOT = Path(__file__).parents[3]
 TRUE = Thresholds(0.020, 0.050, 0.05, 0.080)
@@ -110,7 +110,7 @@ def published_grasps():
     meshes = os.environ.get("GRASPTYPES_REFERENCE_MESHES", "")
     if not (csv and meshes):
         pytest.skip("GRASPTYPES_PUBLISHED_CSV or GRASPTYPES_REFERENCE_MESHES is not set")
-    params = read_yaml(ROOT / "params.yaml")
+    params = RAW
     published = read_published(csv)
     names = sorted(path.stem for path in Path(meshes).glob("*.stl"))
     fields = object_distances(names, meshes, "none", params["replay"]["object_scale"], {})

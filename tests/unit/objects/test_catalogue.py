@@ -5,14 +5,11 @@ import pytest
 
 from grasptypes.objects.catalogue import OBJECTS
 from grasptypes.objects.preparation import physical_properties
-from grasptypes.params import read_yaml
-
-SCHEMA = read_yaml("workflow/schemas/params.schema.yaml")
+from grasptypes.settings.objects import CATALOGUE
 
 
-def test_the_schema_of_the_parameters_names_the_same_objects():
-    names = SCHEMA["properties"]["objects"]["properties"]["names"]["items"]["enum"]
-    assert sorted(names) == sorted(OBJECTS)
+def test_the_settings_name_the_same_objects():
+    assert sorted(CATALOGUE) == sorted(OBJECTS)
     assert len(OBJECTS) == 19
 
 

@@ -7,15 +7,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 import trimesh
+from tests.unit.settings import RAW
 
 from grasptypes.errors import InputError
 from grasptypes.objects.mesh_import import ImportLimits, import_model
-from grasptypes.params import read_yaml
 
-LIMITS = ImportLimits(
-    **read_yaml(Path(__file__).parents[3] / "params.yaml")["objects"]["import"]
-    | {"rebuild_cells": 64}
-)
+LIMITS = ImportLimits(**RAW["objects"]["import"] | {"rebuild_cells": 64})
 
 
 def ball(radius=0.04):

@@ -2,19 +2,14 @@
 
 import numpy as np
 import pytest
+from tests.unit.settings import RAW
 
-from grasptypes.errors import InputError
 from grasptypes.objects import solids
 from grasptypes.objects.catalogue import OBJECTS
 from grasptypes.objects.parts import Material, ObjectModel, Part
-from grasptypes.objects.variants import (
-    all_objects,
-    base_of,
-    check_variation,
-    variant_names,
-    variant_of,
-)
+from grasptypes.objects.variants import all_objects, base_of, variant_names, variant_of
 from grasptypes.objects.variation import Variation, build_variant, vary
+from grasptypes.settings.objects import ObjectSettings
 
 RANGES = {
     "size": [0.85, 1.2],
@@ -45,15 +40,10 @@ def test_names_go_there_and_back():
     assert variant_of("wine_glass_v12") == ("wine_glass", 12)
     assert variant_of("mug") == ("mug", 0)
     assert base_of("mug_v01") == "mug"
-    objects = {"names": ["mug", "pan"], "variants": 1, "own": {"ladle": {}}}
+    own = {"ladle": {"file": "ladle.stl", "unit": "m", "mass_kg": 0.1}}
+    changes = {"names": ["mug", "pan"], "variants": 1, "own": own}
+    objects = ObjectSettings.check(RAW["objects"] | changes)
     assert all_objects(objects) == ["mug", "pan", "mug_v01", "pan_v01", "ladle"]
-    assert all_objects(objects | {"variants": 0}) == ["mug", "pan", "ladle"]
-
-
-def test_a_range_that_runs_downwards_is_named():
-    check_variation({"variation": RANGES})
-    with pytest.raises(InputError, match=r"objects\.variation\.size: 1\.2 is above 0\.8: the"):
-        check_variation({"variation": RANGES | {"size": [1.2, 0.8]}})
 
 
 def test_nothing_varied_changes_nothing():

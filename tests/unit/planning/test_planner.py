@@ -17,11 +17,11 @@ from grasptypes.errors import InputError
 from grasptypes.exchange import dexgraspbench, graspit_world, multigrippergrasp
 from grasptypes.labels.grasp_type import GRASP_TYPES
 from grasptypes.labels.published import read_published
-from grasptypes.params import read_yaml
 from grasptypes.planning import plan_contacts as plan_contacts_module
 from grasptypes.planning.plan_contacts import grips_of, plan_contacts
 from grasptypes.planning.planner import choose, ranked
 from grasptypes.predictors.weights import WEIGHTS_VARIABLE
+from grasptypes.yaml_files import read_yaml
 
 SESSIONS = 3
 SMALL = {

@@ -2,11 +2,11 @@
 
 import learning
 import pytest
+from tests.unit.settings import RAW
 
 from grasptypes.errors import InputError
 from grasptypes.files import write_npz
 from grasptypes.labels.samples import SAMPLE_SCHEMA
-from grasptypes.params import read_yaml
 from grasptypes.predictors.folds import FOLD_SCHEMA
 from grasptypes.predictors.learning_inputs import write_backbone_record
 from grasptypes.predictors.predictor import Architecture
@@ -14,7 +14,7 @@ from grasptypes.predictors.problem import read_problem
 from grasptypes.predictors.weights import WEIGHTS_VARIABLE
 from grasptypes.tables import write_table
 
-SETTINGS = read_yaml("params.yaml")["predictors"]
+SETTINGS = RAW["predictors"]
 
 
 @pytest.fixture

@@ -6,10 +6,10 @@ import learning
 import numpy as np
 import pytest
 import torch
+from tests.unit.settings import RAW
 
 from grasptypes.errors import InputError
 from grasptypes.labels.samples import TYPES
-from grasptypes.params import read_yaml
 from grasptypes.predictors.backbone import KINDS, untrained_backbone
 from grasptypes.predictors.examples import assemble
 from grasptypes.predictors.predictor import VARIANTS, Architecture, Heads
@@ -68,7 +68,7 @@ def card(architecture, weights, model="task_vector", finetune="none"):
 
 
 def test_the_parameters_make_a_recipe():
-    assert recipe_of(read_yaml("params.yaml")["predictors"]).frozen
+    assert recipe_of(RAW["predictors"]).frozen
 
 
 def test_frozen_tables_hold_a_row_a_fold_and_seed_and_a_prediction_a_test_example():

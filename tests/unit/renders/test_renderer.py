@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 import trimesh
 from PIL import Image
+from tests.unit.settings import RAW
 
 from grasptypes.errors import InputError
-from grasptypes.params import read_yaml
 from grasptypes.renders.gl_platform import choose_platform
 from grasptypes.renders.renderer import Camera, Studio
 from grasptypes.renders.scene import Part
@@ -97,5 +97,5 @@ def test_the_platform_is_chosen_where_none_is_named(monkeypatch):
 
 
 def test_the_parameters_name_every_field_of_the_studio():
-    renders = read_yaml("params.yaml")["renders"]
+    renders = RAW["renders"]
     assert set(Studio.__dataclass_fields__) == set(renders) - {"views", "sheet"}

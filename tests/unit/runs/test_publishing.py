@@ -15,7 +15,6 @@ import pandas as pd
 import pytest
 
 from grasptypes.errors import InputError
-from grasptypes.params import PARAMS_SCHEMA, read_yaml
 from grasptypes.predictors.metrics import METRICS
 from grasptypes.predictors.scoring import CURVE_SCHEMA, METRIC_SCHEMA
 from grasptypes.predictors.weights import WEIGHTS_VARIABLE
@@ -30,6 +29,7 @@ from grasptypes.runs.publishing import (
 from grasptypes.runs.tracking import KEY_TAG, Store
 from grasptypes.tables import write_table
 from grasptypes.versions.job_records import UNFINISHED, record_path
+from grasptypes.yaml_files import read_yaml
 
 PROJECT = Path(__file__).parents[3]
 CARD = "models/simulated/no_task/predictor.json"
@@ -50,7 +50,6 @@ def results(tmp_path_factory):
     files = {
         "params.yaml": (PROJECT / "params.yaml").read_text(),
         str(record_path(CARD)): json.dumps({"rule": "train_predictor", "params": trained_with}),
-        PARAMS_SCHEMA: (PROJECT / PARAMS_SCHEMA).read_text(),
         "data/samples.csv": "object,task\n",
         "data/folds.csv": "object,view,fold\n",
         "data/features/apple.npz": "a",
@@ -124,8 +123,6 @@ def test_without_git_runs_name_no_commit(results, monkeypatch, tmp_path):
 def test_parameters_without_a_store_are_refused(results, tmp_path):
     text = (results / "params.yaml").read_text()
     (tmp_path / "params.yaml").write_text(text.replace("\ntracking:", "\ntrakcing:"))
-    (tmp_path / PARAMS_SCHEMA).parent.mkdir(parents=True)
-    (tmp_path / PARAMS_SCHEMA).write_text((results / PARAMS_SCHEMA).read_text())
     with pytest.raises(InputError, match="trakcing"):
         chosen_store(tmp_path)
 

@@ -18,11 +18,11 @@ from PIL import Image
 
 import grasptypes.errors
 from grasptypes.__main__ import main
-from grasptypes.params import read_yaml
 from grasptypes.predictors.weights import WEIGHTS_VARIABLE
 from grasptypes.runs.run_records import RunRecord, serving_requirements
 from grasptypes.runs.serving import MIN_PX
 from grasptypes.runs.tracking import LoggedModel, Store, publish
+from grasptypes.yaml_files import read_yaml
 
 # Importing torch and MLflow on a busy machine.
 START_S = 90

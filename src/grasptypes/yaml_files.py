@@ -1,32 +1,19 @@
-"""params.yaml: read strictly, checked against its schema, wrong keys named in one line."""
+"""YAML files, read strictly: no tags, no duplicate keys, no keys but text."""
 
 from __future__ import annotations
 
-import math
 from collections.abc import Hashable, Mapping
 from pathlib import Path
 from typing import Any
 
-import jsonschema
 import yaml
 
 from grasptypes.errors import InputError
 
-# The schema's place in a checkout.
-PARAMS_SCHEMA = "workflow/schemas/params.schema.yaml"
 # Far more levels than any parameter needs.
 DEEPEST = 100
 # libyaml parses several times faster; a PyYAML built without it does the same in Python.
 _SafeLoader: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
-
-
-# JSON Schema takes 100.0 for an integer; seeds and array shapes do not.
-_Validator = jsonschema.validators.extend(
-    jsonschema.Draft202012Validator,
-    type_checker=jsonschema.Draft202012Validator.TYPE_CHECKER.redefine(
-        "integer", lambda _, value: isinstance(value, int) and not isinstance(value, bool)
-    ),
-)
 
 
 class _StrictLoader(_SafeLoader):
@@ -84,35 +71,14 @@ def read_yaml(path: str | Path) -> dict[str, Any]:
     return content
 
 
-def validate_params(
-    params: Mapping[str, Any], schema: Mapping[str, Any], path: str | Path = "params.yaml"
-) -> None:
-    """Check ``params`` against a JSON Schema.
-
-    Raises:
-        InputError: naming the first wrong key and what is allowed there.
-    """
-    error = jsonschema.exceptions.best_match(_Validator(schema).iter_errors(params))
-    if error is not None:
-        key = ".".join(str(part) for part in error.absolute_path)
-        raise InputError(path, key, _explain(error))
-    _check_finite(params, path)
-
-
-def load_params(path: str | Path, schema_path: str | Path) -> dict[str, Any]:
-    """Read params.yaml and check it against the schema file; see :func:`validate_params`."""
-    params = read_yaml(path)
-    validate_params(params, read_yaml(schema_path), path)
-    return params
-
-
 def merge(base: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str, Any]:
     """``base`` with ``changes`` laid over it, section by section; lists are replaced whole."""
     merged = dict(base)
     for key, value in changes.items():
         old = merged.get(key)
-        both = isinstance(value, Mapping) and isinstance(old, Mapping)
-        merged[key] = merge(old, value) if both else value
+        if isinstance(value, Mapping) and isinstance(old, Mapping):
+            value = merge(old, value)
+        merged[key] = value
     return merged
 
 
@@ -124,27 +90,3 @@ def _check_depth(path: Path, text: str) -> None:
         depth -= isinstance(event, yaml.CollectionEndEvent)
         if depth > DEEPEST:
             raise InputError(path, "", f"not valid YAML: nested too deeply, over {DEEPEST} levels")
-
-
-def _check_finite(content: Any, path: str | Path, key: str = "") -> None:
-    """Refuse .nan and .inf, which pass every comparison of a schema or nearly so."""
-    if isinstance(content, Mapping):
-        for name, value in content.items():
-            _check_finite(value, path, f"{key}.{name}" if key else str(name))
-    elif isinstance(content, list):
-        for index, value in enumerate(content):
-            _check_finite(value, path, f"{key}.{index}")
-    elif isinstance(content, float) and not math.isfinite(content):
-        raise InputError(path, key, f"{content} is not a finite number")
-
-
-def _explain(error: jsonschema.ValidationError) -> str:
-    """What is wrong, what is allowed, and the unit, on one line."""
-    message = error.message
-    allowed = error.schema.get("properties") if isinstance(error.schema, Mapping) else None
-    if error.validator == "additionalProperties" and allowed:
-        message += f"; allowed: {', '.join(sorted(allowed))}"
-    if error.validator == "not":
-        message = f"{error.instance!r} is not allowed"
-    description = error.schema.get("description") if isinstance(error.schema, Mapping) else None
-    return f"{message} ({description})" if description else message

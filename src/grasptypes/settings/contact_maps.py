@@ -1,0 +1,80 @@
+"""Sections `contact_maps` and `contact_evidence`: how people hold and touch the objects."""
+
+from __future__ import annotations
+
+from grasptypes.settings.base import Many, Settings, setting
+
+
+class HandLengths(Settings):
+    """One of equally large groups of people."""
+
+    hand_length_m: float = setting("mean length of the hand", ge=0.05, le=0.5)
+    hand_length_sd_m: float = setting("its standard deviation", ge=0, le=0.05)
+
+
+class HandProportions(Settings):
+    """Measures of the hand as shares of its length."""
+
+    breadth: float = setting("across the four fingers' bases", gt=0, le=2)
+    finger_reach: float = setting("from the palm's centre to a fingertip", gt=0, le=2)
+    thumb_reach: float = setting("from the palm's centre to the thumb's tip", gt=0, le=2)
+    palm_half: float = setting("half of the touching palm", gt=0, le=2)
+    palm_radius: float = setting("palm's patch when the fingers are spread", gt=0, le=2)
+    finger_half_width: float = setting("half a finger's breadth", gt=0, le=2)
+    pad_radius: float = setting("radius of a fingertip's patch", gt=0, le=2)
+    span: float = setting("from a precision grip's centre to a fingertip at most", gt=0, le=2)
+    softness: float = setting("depth by which skin gives way", gt=0, le=2)
+
+
+class PlacementSettings(Settings):
+    """How people deviate from their hold."""
+
+    tilt_sd_rad: float = setting(
+        "tilt of the palm about either axis, standard deviation", ge=0, le=1.6
+    )
+    roll_sd_rad: float = setting(
+        "roll of the hand about its approach, standard deviation", ge=0, le=1.6
+    )
+    slice_m: float = setting("half the thickness of the cut the hand is centred on", gt=0, le=0.1)
+    depth_m: float = setting("depth of the fingertips below a rim", gt=0, le=0.2)
+
+
+class MeasuredMapSettings(Settings):
+    """How a map measured on an own object becomes a probability and sessions."""
+
+    coldest: float = setting("probability of the coldest vertex seen", gt=0, lt=0.5)
+    warmest: float = setting("probability of the warmest vertex", gt=0.5, lt=1)
+    max_gap_m: float = setting(
+        "from a surface point to its nearest vertex of the scan at most", gt=0, le=0.05
+    )
+    min_seen_share: float = setting(
+        "least share of the surface points that the scan must show", ge=0, le=1
+    )
+    placements: int = setting("placements a person compares", ge=1, le=10000)
+    sharpness: float = setting(
+        "power of a placement's agreement with the map that weights it", ge=0, le=100
+    )
+
+
+class ContactMapSettings(Settings):
+    """How contact maps are drawn."""
+
+    affinities: str = setting("path of the affinity table, a CSV", min_length=1)
+    sessions: int = setting("ways of holding drawn for an object and task", ge=1, le=1000)
+    population: int = setting("people whose mean is the population's map", ge=1, le=10000)
+    points: int = setting("surface points of a map", ge=100, le=100000)
+    threshold: float = setting("contact from which a point counts as touched (0 to 1)", gt=0, lt=1)
+    tries: int = setting("placements a person tries before giving up", ge=1, le=1000)
+    people: Many[HandLengths] = setting("equally large groups of people", min_length=1)
+    hand: HandProportions
+    placement: PlacementSettings
+    measured: MeasuredMapSettings
+
+
+class ContactEvidenceSettings(Settings):
+    """How the published poses are measured as evidence for the affinity table."""
+
+    hand_spacing_m: float = setting(
+        "distance between neighbouring points on the hand", ge=0.001, le=0.05
+    )
+    touch_m: float = setting("surfaces nearer than this touch", gt=0, le=0.05)

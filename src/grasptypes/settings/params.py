@@ -1,0 +1,90 @@
+"""params.yaml as a whole: every section, read once and checked once."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated, Literal, Self
+
+from pydantic import AfterValidator, model_validator
+
+from grasptypes.settings.base import MisplacedError, Name, Settings, Unique, setting
+from grasptypes.settings.commands import PlanSettings, PredictSettings, TrackingSettings
+from grasptypes.settings.contact_maps import ContactEvidenceSettings, ContactMapSettings
+from grasptypes.settings.grasp_types import GraspTypeSettings, PublishedSettings, ReplaySettings
+from grasptypes.settings.objects import ObjectSettings, TaskSettings
+from grasptypes.settings.physics import GraspTestSettings
+from grasptypes.settings.predictors import (
+    BackboneSettings,
+    FeatureSettings,
+    FoldSettings,
+    GeneralisationSettings,
+    PredictorSettings,
+)
+from grasptypes.settings.renders import ContactPictureSettings, GallerySettings, RenderSettings
+from grasptypes.settings.synthesis import SynthesisSettings
+from grasptypes.yaml_files import read_yaml
+
+# Images and features without a task go by this name.
+NO_TASK = "none"
+
+
+def _is_a_task(name: str) -> str:
+    if name == NO_TASK:
+        raise ValueError(f"'{name}' stands for no task: choose another name")
+    return name
+
+
+class Params(Settings):
+    """Parameters of the grasptypes workflow."""
+
+    seed: int = setting("whole number, part of the key of every random draw", ge=0)
+    tasks: dict[Annotated[Name, AfterValidator(_is_a_task)], TaskSettings] = setting(
+        "what the object is grasped for, in the order of task vectors", min_length=1
+    )
+    objects: ObjectSettings
+    contact_maps: ContactMapSettings
+    published: PublishedSettings
+    replay: ReplaySettings
+    contact_pictures: ContactPictureSettings
+    contact_evidence: ContactEvidenceSettings
+    synthesis: SynthesisSettings
+    physics: GraspTestSettings
+    gallery: GallerySettings
+    grasp_types: GraspTypeSettings
+    renders: RenderSettings
+    backbone: BackboneSettings
+    features: FeatureSettings
+    folds: FoldSettings
+    labels: Unique[Literal["simulated", "published"]] = setting(
+        "label sources that tables are made for", min_length=1
+    )
+    predictors: PredictorSettings
+    generalisation: GeneralisationSettings
+    predict: PredictSettings
+    plan: PlanSettings
+    tracking: TrackingSettings
+
+    @model_validator(mode="after")
+    def _tasks_agree(self) -> Self:
+        shown: dict[int, str] = {}
+        for name, task in self.tasks.items():
+            other = shown.setdefault(task.colour_shift, name)
+            if other != name:
+                raise MisplacedError(
+                    f"tasks.{name}.colour_shift",
+                    f"{task.colour_shift} is that of {other} too: no image could tell them apart",
+                )
+        for name, own in self.objects.own.items():
+            for unknown in own.contact_maps.keys() - self.tasks.keys():
+                key = f"objects.own.{name}.contact_maps"
+                raise MisplacedError(key, f"'{unknown}' is not one of {', '.join(self.tasks)}")
+        return self
+
+
+def read_params(path: str | Path) -> Params:
+    """The parameters of a file.
+
+    Raises:
+        InputError: the file cannot be read, or names the first wrong key.
+    """
+    return Params.check(read_yaml(path), path)

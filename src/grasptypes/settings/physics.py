@@ -1,0 +1,55 @@
+"""Section `physics`: which grasps are valid, and the test in PyBullet."""
+
+from __future__ import annotations
+
+from grasptypes.settings.base import Settings, setting
+
+
+class ValiditySettings(Settings):
+    """What a valid grasp keeps to."""
+
+    max_depth_m: float = setting("depth that makes a grasp invalid", ge=0, le=0.05)
+    strict_depth_m: float = setting("stricter depth that is reported too", ge=0, le=0.05)
+    min_links: int = setting("links that must touch", ge=1, le=9)
+    touch_m: float = setting("distance up to which a planned finger touches", ge=0, le=0.005)
+    limit_tolerance_rad: float = setting("how far a joint may be beyond its limit", ge=0, le=0.2)
+    lag_tolerance_rad: float = setting(
+        "how far a fingertip may be behind a third of its finger's angle", ge=0, le=0.2
+    )
+
+
+class PhysicsSettings(Settings):
+    """The test in PyBullet."""
+
+    timestep_s: float = setting("time step", ge=0.0001, le=0.01)
+    solver_iterations: int = setting("of the constraint solver, each step", ge=1, le=1000)
+    friction: float = setting("Coulomb coefficient between hand and object", ge=0, le=5)
+    gravity_m_s2: float = setting("acceleration of gravity", ge=0, le=100)
+    control_steps: int = setting("time steps between commands to the motors", ge=1, le=100)
+    fingertip_force_n: float = setting(
+        "force at the fingertip up to which motors close, newtons; the hand has 15", gt=0, le=15
+    )
+    passive_force_n: float = setting(
+        "force at the fingertip that stopped fingers withstand, newtons; the hand has 20",
+        gt=0,
+        le=20,
+    )
+    closing_speed_rad_s: float = setting(
+        "speed of the closing fingers, rad/s; the hand has 2.44", gt=0, le=2.45
+    )
+    gear_correction: float = setting(
+        "share of a coupled fingertip's lag made up for in a time step", gt=0, le=10
+    )
+    gear_torque_nm: float = setting("torque up to which a finger's coupling is held", gt=0, le=1000)
+    squeeze_time_s: float = setting("closing without gravity", gt=0, le=10)
+    hold_time_s: float = setting("holding against gravity", ge=0.1, le=60)
+    drop_distance_m: float = setting("movement in the hand that counts as dropped", gt=0, le=1)
+    drop_rotation_rad: float = setting("rotation in the hand that counts as dropped", gt=0, le=3.15)
+    shake: bool = setting("gravity from all six sides in turn, the worst counts")
+
+
+class GraspTestSettings(Settings):
+    """Which grasps are valid."""
+
+    validity: ValiditySettings
+    test: PhysicsSettings
