@@ -16,9 +16,11 @@ sys.path.insert(0, str(Path(workflow.basedir) / "src"))
 from grasptypes.errors import InputError
 from grasptypes.settings.params import Params, read_params
 from grasptypes.runs.due import note_due, publish_what_is_due, publishing_is_due
-from grasptypes.versions.guard import FolderLock, remove_leftovers, use_this_checkout
+from grasptypes.runtime import pin_runtime, use_this_checkout
+from grasptypes.versions.guard import FolderLock, remove_leftovers
 from grasptypes.versions.job_records import distrust_unrecorded
 
+pin_runtime()
 use_this_checkout(workflow.basedir)
 try:
     if workflow.is_main_process:

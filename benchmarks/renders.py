@@ -5,7 +5,6 @@ Both with the one thread that a job has: a renderer that takes all cores is not 
 
 from __future__ import annotations
 
-import os
 from collections.abc import Iterator, Mapping
 from dataclasses import fields
 from functools import partial
@@ -17,12 +16,12 @@ from benchmarks.figures import Figure, rates, seconds
 
 from grasptypes.renders.renderer import Camera, Studio, Views
 from grasptypes.renders.scene import load_parts
-from grasptypes.versions.guard import ONE_THREAD
+from grasptypes.runtime import pin_runtime
 
 
 def measure(settings: Mapping[str, Any], params: Mapping[str, Any]) -> Iterator[Figure]:
     """Ours end as PNG files with ground and shadow; the bare loop's are arrays."""
-    os.environ.update(ONE_THREAD)
+    pin_runtime()
     studio = Studio(**{field.name: params["renders"][field.name] for field in fields(Studio)})
     taken_s = []
     with Camera(studio) as camera:

@@ -1,59 +1,19 @@
-"""The command line: ``grasptypes predict`` and whatever else ``grasptypes --help`` lists."""
+"""``grasptypes`` and ``python -m grasptypes``: see :mod:`grasptypes.commands.command_line`."""
 
 from __future__ import annotations
 
-import argparse
-import logging
-import sys
-import warnings
 from collections.abc import Sequence
-from concurrent.futures.process import BrokenProcessPool
-from typing import NoReturn
 
-from grasptypes.commands import plan, predict
-from grasptypes.errors import InputError
-
-COMMANDS = {"predict": predict, "plan": plan}
-
-
-class _Parser(argparse.ArgumentParser):
-    """Says what is wrong with the arguments on one line."""
-
-    def error(self, message: str) -> NoReturn:
-        """End with status 2."""
-        self.exit(2, f"error: {message} (see {self.prog} --help)\n")
-
-
-def parser() -> argparse.ArgumentParser:
-    """All commands and their options."""
-    whole = _Parser("grasptypes", description="Which grasp should a robot's hand use?")
-    commands = whole.add_subparsers(dest="command", required=True, metavar="COMMAND")
-    for name, module in COMMANDS.items():
-        summary = str(module.__doc__).splitlines()[0]
-        module.add_arguments(commands.add_parser(name, help=summary, description=summary))
-    return whole
+from grasptypes.runtime import pin_runtime
 
 
 def main(arguments: Sequence[str] | None = None) -> None:
-    """Run one command.
+    """Run one command in the environment that jobs have."""
+    pin_runtime()
+    # NumPy reads the environment when it is imported.
+    from grasptypes.commands import command_line
 
-    Bad input, a full disk and too little memory end with one line and exit status 1, Ctrl-C with
-    130, as shells have it.
-    """
-    asked = parser().parse_args(arguments)
-    logging.basicConfig(level=logging.ERROR)
-    warnings.simplefilter("ignore")
-    try:
-        sys.stdout.write(COMMANDS[asked.command].run(asked))
-    except InputError as error:
-        sys.exit(f"error: {error}")
-    except OSError as error:
-        where = f"{error.filename}: " if error.filename else ""
-        sys.exit(f"error: {where}{error.strerror or error}")
-    except (MemoryError, BrokenProcessPool):  # the system kills a process that asks for too much
-        sys.exit("error: the memory is too short: end other programs, or plan with --jobs 1")
-    except KeyboardInterrupt:
-        sys.exit(130)
+    command_line.main(arguments)
 
 
 if __name__ == "__main__":

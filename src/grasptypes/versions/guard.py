@@ -16,46 +16,6 @@ from typing import IO
 from grasptypes.errors import InputError
 from grasptypes.files import TEMPORARY
 
-# What every x86 processor with AVX2 can do. Left alone, OpenBLAS, NumPy and Numba take whatever the
-# machine has, and a last digit that differs becomes another grasp.
-COMMON_INSTRUCTIONS = {
-    "OPENBLAS_CORETYPE": "Haswell",
-    "NPY_ENABLE_CPU_FEATURES": "X86_V3",
-    "NUMBA_CPU_NAME": "haswell",
-}
-
-# A job computes with one thread, so that results do not depend on how many there are and a cluster
-# gets what it was asked for. Mesa counts the threads beside the one that calls it.
-ONE_THREAD = {
-    "OMP_NUM_THREADS": "1",
-    "OPENBLAS_NUM_THREADS": "1",
-    "MKL_NUM_THREADS": "1",
-    "LP_NUM_THREADS": "0",
-}
-
-
-def use_this_checkout(root: str | Path) -> None:
-    """Make jobs run this checkout's code with the Python that runs Snakemake, one thread each.
-
-    Instructions that all processors with AVX2 have keep results independent of the processor.
-    """
-    paths = [str(Path(root) / "src"), os.environ.get("PYTHONPATH", "")]
-    os.environ["PYTHONPATH"] = os.pathsep.join(filter(None, paths))
-    os.environ["PATH"] = os.pathsep.join([str(Path(sys.executable).parent), os.environ["PATH"]])
-    os.environ.update(ONE_THREAD)
-    os.environ["PYTHONHASHSEED"] = "0"
-    if "avx2" in processor_features():
-        os.environ.update(COMMON_INSTRUCTIONS)
-
-
-def processor_features(description: Path = Path("/proc/cpuinfo")) -> set[str]:
-    """Names of what an x86 processor can do; none where Linux does not tell."""
-    if not description.is_file():
-        return set()
-    lines = description.read_text().splitlines()
-    return {name for line in lines if line.startswith("flags") for name in line.split()[2:]}
-
-
 # What a run writes before its first job.
 ROOM_BYTES = 2**17
 

@@ -9,10 +9,8 @@ import pytest
 
 from grasptypes.errors import InputError
 from grasptypes.versions.guard import (
-    COMMON_INSTRUCTIONS,
     FolderLock,
     check_cache_links,
-    processor_features,
     remove_leftovers,
 )
 
@@ -148,21 +146,3 @@ def test_a_configuration_that_cannot_be_read_is_named(tmp_path: Path, content: b
     with pytest.raises(InputError, match=r"config: is no configuration of DVC") as error:
         check_cache_links(tmp_path)
     assert "\n" not in str(error.value)
-
-
-def test_the_processors_features_are_read(tmp_path: Path) -> None:
-    description = tmp_path / "cpuinfo"
-    description.write_text("processor\t: 0\nflags\t\t: fpu avx2 fma\nbugs\t\t: none\n")
-    assert processor_features(description) == {"fpu", "avx2", "fma"}
-    assert processor_features(tmp_path / "none") == set()
-
-
-@pytest.mark.skipif("avx2" not in processor_features(), reason="this processor has no AVX2")
-def test_linear_algebra_keeps_to_the_common_instructions() -> None:
-    code = "import numpy, threadpoolctl; print(threadpoolctl.threadpool_info()[0]['architecture'])"
-    environment = {**os.environ, **COMMON_INSTRUCTIONS}
-    result = subprocess.run(
-        [sys.executable, "-W", "error::ImportWarning", "-c", code],
-        env=environment, capture_output=True, text=True, check=False,
-    )  # fmt: skip
-    assert result.stdout == "Haswell\n", result.stderr

@@ -1,0 +1,105 @@
+"""Every entry point computes with one thread and common instructions, whatever the user has set."""
+
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from grasptypes.runtime import COMMON_INSTRUCTIONS, has_home, pin_runtime, processor_features
+
+ROOT = Path(__file__).parents[2]
+USED = """
+import json, os, sys
+import numpy, matplotlib.pyplot, numba, threadpoolctl
+from pathlib import Path
+pools = threadpoolctl.threadpool_info()
+found = {"threads": [pool["num_threads"] for pool in pools]}
+found["kernels"] = pools[0].get("architecture")
+found["backend"] = matplotlib.get_backend().lower()
+found["home"] = str(Path.home())
+print(json.dumps(found))
+"""
+# What notebooks, clusters, containers and other projects set.
+HOSTILE = {
+    "MPLBACKEND": "module://matplotlib_inline.backend_inline",
+    "NPY_DISABLE_CPU_FEATURES": "AVX2",
+    "NPY_ENABLE_CPU_FEATURES": "AVX512F",
+    "OPENBLAS_CORETYPE": "SkylakeX",
+    "OPENBLAS_NUM_THREADS": "7",
+    "OMP_NUM_THREADS": "7",
+    "MKL_NUM_THREADS": "7",
+    "NUMBA_NUM_THREADS": "7",
+    "NUMBA_CPU_NAME": "skylake-avx512",
+    "NUMBA_CPU_FEATURES": "+avx512f",
+    "PYTHONHASHSEED": "7",
+    "LP_NUM_THREADS": "7",
+    "HOME": "/",
+}
+
+
+def used_with(variables: dict[str, str], code: str) -> dict:
+    environment = {**os.environ, "PYTHONPATH": str(ROOT / "src"), **variables}
+    done = subprocess.run(
+        [sys.executable, "-c", code], env=environment, capture_output=True, text=True, check=False
+    )
+    assert done.returncode == 0, done.stderr
+    return json.loads(done.stdout.splitlines()[-1])
+
+
+PINNED = "from grasptypes.runtime import pin_runtime; pin_runtime()\n" + USED
+
+
+@pytest.mark.parametrize("name", [*HOSTILE, "all of them"])
+@pytest.mark.skipif("avx2" not in processor_features(), reason="this processor has no AVX2")
+def test_what_users_set_changes_nothing(name):
+    found = used_with(HOSTILE if name == "all of them" else {name: HOSTILE[name]}, PINNED)
+    assert set(found["threads"]) == {1}
+    assert found["kernels"] == "Haswell"
+    assert found["backend"] == "agg"
+    assert found["home"] != "/"
+
+
+def test_the_hostile_settings_are_hostile():
+    assert used_with({"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "2"}, USED)["threads"] == [2]
+    with pytest.raises(AssertionError, match="NPY_DISABLE_CPU_FEATURES"):
+        used_with({name: HOSTILE[name] for name in HOSTILE if name.startswith("NPY")}, USED)
+
+
+def test_commands_pin_before_numpy_is_imported():
+    code = """
+import contextlib, io, json, os, sys
+import grasptypes.__main__
+assert "numpy" not in sys.modules
+with contextlib.suppress(SystemExit), contextlib.redirect_stdout(io.StringIO()):
+    grasptypes.__main__.main(["predict", "--help"])
+print(json.dumps({name: os.environ[name] for name in ("OMP_NUM_THREADS", "MPLBACKEND")}))
+"""
+    assert used_with(HOSTILE, code) == {"OMP_NUM_THREADS": "1", "MPLBACKEND": "Agg"}
+
+
+def test_the_workflow_pins_its_jobs():
+    text = (ROOT / "Snakefile").read_text()
+    assert text.index("pin_runtime()") < text.index("include:")
+
+
+def test_a_home_folder_is_found_or_made_up(tmp_path):
+    assert has_home({"HOME": str(tmp_path)})
+    assert not has_home({"HOME": "/"})
+    assert not has_home({"HOME": str(tmp_path / "none")})
+    environment = {"HOME": "/"}
+    pin_runtime(environment)
+    assert environment["HOME"] != "/"
+
+
+def test_the_processors_features_are_read(tmp_path):
+    description = tmp_path / "cpuinfo"
+    description.write_text("processor\t: 0\nflags\t\t: fpu avx2 fma\nbugs\t\t: none\n")
+    assert processor_features(description) == {"fpu", "avx2", "fma"}
+    assert processor_features(tmp_path / "none") == set()
+
+
+def test_the_instructions_are_those_of_one_processor():
+    assert COMMON_INSTRUCTIONS["OPENBLAS_CORETYPE"].lower() == COMMON_INSTRUCTIONS["NUMBA_CPU_NAME"]
