@@ -14,8 +14,8 @@ export PATH := $(BIN):$(PATH)
 export DVC_NO_ANALYTICS := 1
 export MLFLOW_DISABLE_TELEMETRY := true
 
-.PHONY: help setup table1 demo test test-slurm acceptance bad-input test-faults verify coverage mutation bench lint format doctor \
-    publish ui report clean lock
+.PHONY: help setup table1 demo test test-slurm acceptance bad-input test-faults verify coverage mutation bench lint format \
+    publish ui report results clean lock
 
 help: ## list the targets
 	@awk -F ':.*## ' '/^[a-z0-9-]+:.*## / {printf "  make %-12s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -79,23 +79,22 @@ lint: setup ## style, types and workflow checks
 format: setup ## rewrite files in the project's style
 	ruff check --fix . && ruff format . && snakefmt Snakefile workflow
 
-doctor: setup ## find results edited by hand and settings that would spoil them
-	python -m grasptypes.versions.doctor
-
-publish: setup ## show finished results in MLflow; adds nothing that is there already
-	python -m grasptypes.runs.publishing
+publish: setup ## show the trained models in MLflow again; adds nothing that is there already
+	snakemake -j$(JOBS) publish_runs --force
 
 ui: setup ## publish, then the MLflow UI on 127.0.0.1, few processes
+	-snakemake -j$(JOBS) publish_runs --force
 	@python -m grasptypes.runs.ui --port $(UI_PORT)
 
-# What the main job does not make, for want of data or time, and what the jobs cost: shown if it is there.
-EXTRAS := reports/replay.csv reports/object_shapes.csv reports/figures/label_confusion.png \
-    reports/generalisation.csv reports/planning.csv
 report: setup ## the results with captions as one HTML page that opens offline: build/report.html
 	@mkdir -p build
+	snakemake -j$(JOBS) results
 	python -m grasptypes.reports.timing
-	snakemake all $$(test -f build/timing.png && echo timing) $$(ls 2>/dev/null $(EXTRAS)) \
-	    --report build/report.html --report-stylesheet workflow/report/page.css
+	snakemake shown --report build/report.html --report-stylesheet workflow/report/page.css
+
+results: setup ## copy what README and docs quote from reports/ to docs/results/
+	@for file in docs/results/*; do new="reports/$${file##*/}"; \
+	    if [ -e "$$new" ]; then cp "$$new" "$$file"; else echo "$$file stays: there is no $$new"; fi; done
 
 clean: ## remove what can be rebuilt outside the data: logs, demo, caches
 	rm -rf build logs mutants .coverage* .pytest_cache .ruff_cache .mypy_cache

@@ -1,12 +1,10 @@
 # The paper's pipeline, in its order: objects, contact maps, grasps, labels, renders, predictors,
 # tables. `snakemake -j2 reports/table1.csv` is the main job; `snakemake -n` says what is to be done.
-import atexit
 import json
 import os
 import sys
 from pathlib import Path
 
-from snakemake.persistence import PersistenceBase
 from snakemake.utils import min_version
 
 min_version("9.17")
@@ -14,25 +12,25 @@ min_version("9.17")
 sys.path.insert(0, str(Path(workflow.basedir) / "src"))
 
 from grasptypes.errors import InputError
+from grasptypes.failed_jobs import FailedJobs
+from grasptypes.jobs import reason
 from grasptypes.settings.params import Params, read_params
-from grasptypes.runs.due import note_due, publish_what_is_due, publishing_is_due
 from grasptypes.runtime import pin_runtime, use_this_checkout
 from grasptypes.versions.guard import FolderLock, remove_leftovers
-from grasptypes.versions.job_records import distrust_unrecorded
+from grasptypes.versions.provenance import FILE_HASHES, adopt_provenance
 
 pin_runtime()
 use_this_checkout(workflow.basedir)
 try:
     if workflow.is_main_process:
-        folder_lock = FolderLock()
+        folder_lock, failed_jobs = FolderLock(), FailedJobs()
         if folder_lock.take():
             remove_leftovers(".")
-            was_due = publishing_is_due(Path.cwd())
-        distrust_unrecorded(PersistenceBase)
+            adopt_provenance(Path.cwd())
     # Before Snakemake reads them: it lets a duplicate key pass, and runs code if `__use_yte__` is set.
     read_params("params.yaml")
-except InputError as error:
-    sys.exit(f"error: {error}")
+except (InputError, OSError) as error:
+    sys.exit(f"error: {reason(error) or error}")
 
 
 configfile: "params.yaml"
@@ -53,6 +51,7 @@ include: "workflow/rules/tables.smk"
 include: "workflow/rules/details.smk"
 include: "workflow/rules/generalisation.smk"
 include: "workflow/rules/planning.smk"
+include: "workflow/rules/tracking.smk"
 
 
 wildcard_constraints:
@@ -62,6 +61,7 @@ wildcard_constraints:
 
 # A few seconds each, or in need of a network: on a cluster these run beside Snakemake.
 localrules:
+    publish_runs,
     fetch_published,
     prepare_backbone,
     label_published,
@@ -79,26 +79,27 @@ localrules:
     plot_losses,
 
 
+# Every job keeps its log and its cost under its own name, and has the same environment.
+for each in workflow.rules:
+    if not each.norun:
+        each.log_modifier = each.benchmark_modifier = workflow.modifier.path_modifier
+        each.set_log(f"logs/{job_name(each)}.log")
+        each.benchmark = f"logs/benchmarks/{job_name(each)}.tsv"
+        each.conda_env = "../envs/grasptypes.yaml"
+
+
 # A dry run may read along while another run computes; jobs start only for who holds the folder.
-# MLflow shows what the files hold: results never depend on its store being there.
 onstart:
     if not folder_lock.take():
         sys.exit(1)
-    note_due(Path.cwd())
 
 
-onsuccess:
-    if any(Path("models").glob("*/*/predictor.json")):
-        shell("python -m grasptypes.runs.publishing || true")
+onerror:
+    sys.stderr.write(failed_jobs.summary())
 
 
-# Without a job to do there is no `onsuccess`, yet an earlier run may have been killed before it.
-if workflow.is_main_process and folder_lock.file and was_due:
-    atexit.register(lambda: workflow.dryrun or publish_what_is_due(Path.cwd()))
-
-
-rule all:
-    default_target: True
+# Everything that is computed for all users; what needs data of the user's own has targets of its own.
+rule results:
     input:
         [TABLES[labels] for labels in LABELS],
         [rules.tabulate_unseen.output, rules.tabulate_objects.output] if UNSEEN else [],
@@ -114,3 +115,23 @@ rule all:
         rules.tabulate_types.output,
         rules.plot_folds.output,
         rules.plot_losses.output,
+
+
+# The results, and MLflow's view of them.
+rule all:
+    default_target: True
+    input:
+        rules.results.input,
+        rules.publish_runs.output,
+
+
+# What `make report` shows: all results, and those of the other targets that are there as a whole.
+EXTRAS = [rules.evaluate_labels, rules.replay_grasps, rules.compare_shapes]
+EXTRAS += [rules.tabulate_generalisation, rules.compare_plans]
+
+
+rule shown:
+    input:
+        rules.results.input,
+        [each.output for each in EXTRAS if all(Path(path).is_file() for path in each.output)],
+        rules.timing.input if Path(rules.timing.input.figure).is_file() else [],

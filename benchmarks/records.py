@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import base64
 import json
 import os
 from collections.abc import Collection, Iterator, Mapping
@@ -10,8 +11,6 @@ from typing import Any, NamedTuple
 
 import pandas as pd
 from benchmarks.figures import Figure, figure
-
-from grasptypes.versions.job_records import RECORDS, recorded_result
 
 MAIN_JOB = "reports/table1.csv"
 BEFORE_LABELS = {"prepare_object", "map_contacts", "synthesize_grasps"}
@@ -30,7 +29,7 @@ class Record(NamedTuple):
 
 def measure(settings: Mapping[str, Any], params: Mapping[str, Any]) -> Iterator[Figure]:
     """All rules beside the whole, the main job beside its aims, memory beside the machine's."""
-    records = read_records(Path(RECORDS))
+    records = read_records(Path(".snakemake/metadata"))
     whole_s = busy_s(records.values())
     for rule in sorted({record.rule for record in records.values()}):
         time_s = busy_s([record for record in records.values() if record.rule == rule])
@@ -52,7 +51,9 @@ def read_records(folder: Path) -> dict[str, Record]:
     records = {}
     for path in folder.rglob("*"):
         if path.is_file():
-            name = recorded_result(path.relative_to(folder))
+            # The result's path in base64, cut into folders where it is longer than a name can be.
+            encoded = "".join(part.removeprefix("@") for part in path.relative_to(folder).parts)
+            name = base64.urlsafe_b64decode(encoded).decode()
             found = json.loads(path.read_text())
             names = "rule", "job_hash", "input", "starttime", "endtime"
             records[name] = Record(*(found[name] for name in names))

@@ -1,4 +1,4 @@
-"""What every workflow script shares: a log file, and one clear line for bad input."""
+"""What every workflow script shares: a log file, and one line that says why a job failed."""
 
 from __future__ import annotations
 
@@ -8,7 +8,6 @@ import sys
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
-from typing import NoReturn
 
 from grasptypes.errors import InputError
 
@@ -18,9 +17,9 @@ _REFUSALS = (errno.ENOSPC, errno.EDQUOT, errno.EROFS, errno.EACCES, errno.EPERM)
 
 @contextmanager
 def job(log: Sequence[str]) -> Iterator[logging.Logger]:
-    """Log to the rule's log file, and end with one line and exit status 1 where that says it all.
+    """Log to the rule's log file; whatever goes wrong ends with one line and exit status 1.
 
-    It does for an :class:`InputError`, a disk that takes nothing, and memory that is too short.
+    An error that nobody foresaw also leaves its stack trace in the log.
 
     Args:
         log: the rule's log files (``snakemake.log``); the first is used, an empty list means
@@ -36,24 +35,26 @@ def job(log: Sequence[str]) -> Iterator[logging.Logger]:
     logger = logging.getLogger("grasptypes")
     try:
         yield logger
-    except InputError as error:
-        _end(logger, str(error))
-    except OSError as error:
-        if error.errno not in _REFUSALS:
-            raise
-        _end(logger, f"{error.filename or 'a file'}: {error.strerror}")
-    except (MemoryError, RuntimeError) as error:
-        if not isinstance(error, MemoryError) and "can't allocate memory" not in str(error):
-            raise  # torch has no type of its own for that
-        _end(
-            logger, "the memory is too short for this job: give it more, or run fewer at once (-j1)"
-        )
+    except Exception as error:
+        line = reason(error)
+        logging.raiseExceptions = False  # the log may lie on the same full disk
+        if line is None:
+            line = " ".join(f"{type(error).__name__}: {error}".split())
+            logger.info("unforeseen error", exc_info=error)
+        logger.error("%s", line)
+        sys.stderr.write(f"error: {line}\n")
+        sys.exit(1)
     finally:
         logging.shutdown()
 
 
-def _end(logger: logging.Logger, line: str) -> NoReturn:
-    logging.raiseExceptions = False  # the log may lie on the same full disk
-    logger.error("%s", line)
-    sys.stderr.write(f"error: {line}\n")
-    sys.exit(1)
+def reason(error: Exception) -> str | None:
+    """One line that says it all; None for an error that nobody foresaw."""
+    if isinstance(error, InputError):
+        return str(error)
+    if isinstance(error, OSError) and error.errno in _REFUSALS:
+        return f"{error.filename or 'a file'}: {error.strerror}"
+    # torch has no type of its own for lack of memory
+    if isinstance(error, MemoryError) or "can't allocate memory" in str(error):
+        return "not enough memory for this job: give it more, or run fewer at once (-j1)"
+    return None

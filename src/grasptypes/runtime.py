@@ -5,6 +5,7 @@ environment. Results then do not depend on the machine, and whoever calls `pin_r
 from __future__ import annotations
 
 import os
+import shlex
 import sys
 import tempfile
 from collections.abc import MutableMapping
@@ -73,3 +74,6 @@ def use_this_checkout(root: str | Path) -> None:
     paths = [str(Path(root) / "src"), os.environ.get("PYTHONPATH", "")]
     os.environ["PYTHONPATH"] = os.pathsep.join(filter(None, paths))
     os.environ["PATH"] = os.pathsep.join([str(Path(sys.executable).parent), os.environ["PATH"]])
+    if shlex.quote(sys.executable) != sys.executable:
+        # Snakemake does not quote it in the commands of jobs; there it is found on the PATH.
+        sys.executable = Path(sys.executable).name

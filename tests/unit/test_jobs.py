@@ -1,9 +1,13 @@
 import errno
+import logging
 from pathlib import Path
 
 import pytest
+from snakemake.logging import logger
+from snakemake_interface_logger_plugins.common import LogEvent
 
 from grasptypes.errors import InputError
+from grasptypes.failed_jobs import FailedJobs
 from grasptypes.jobs import job
 
 
@@ -35,7 +39,7 @@ def test_bad_input_is_one_line_and_status_1(
             "a.npz: No space left on device",
         ),
         (OSError(errno.EROFS, "Read-only file system"), "a file: Read-only file system"),
-        (MemoryError(), "the memory is too short for this job: give it more, or run fewer at once"),
+        (MemoryError(), "not enough memory for this job: give it more, or run fewer at once"),
     ],
 )
 def test_what_the_machine_lacks_is_one_line(
@@ -47,8 +51,33 @@ def test_what_the_machine_lacks_is_one_line(
     assert line in (tmp_path / "job.log").read_text()
 
 
-def test_other_errors_are_not_swallowed(tmp_path: Path) -> None:
-    with pytest.raises(ZeroDivisionError), job([str(tmp_path / "job.log")]):
-        _ = 1 / 0
-    with pytest.raises(FileNotFoundError), job([str(tmp_path / "job.log")]):
-        (tmp_path / "none").read_text()
+def test_what_nobody_foresaw_is_one_line_with_its_trace_in_the_log(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    with pytest.raises(SystemExit), job([str(tmp_path / "job.log")]):
+        raise KeyError("mug")
+    assert capsys.readouterr().err == "error: KeyError: 'mug'\n"
+    lines = (tmp_path / "job.log").read_text().splitlines()
+    assert lines[-1] == "ERROR KeyError: 'mug'"
+    assert "Traceback (most recent call last):" in lines
+
+
+def failed(job: str) -> logging.LogRecord:
+    record = logging.LogRecord("snakemake", logging.ERROR, "", 0, "Error", None, None)
+    record.event, record.log = LogEvent.JOB_ERROR, [f"logs/{job}.log"]
+    return record
+
+
+def test_every_failed_job_has_its_reason_in_the_summary(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "logs/train").mkdir(parents=True)
+    (tmp_path / "logs/train/mug.log").write_text("INFO started\nERROR first\nERROR last\n")
+    failures = FailedJobs()
+    for name in ("train/mug", "killed"):
+        failures.emit(failed(name))
+    reasons = failures.summary().splitlines()
+    assert reasons[0] == "error: train/mug: last"
+    assert reasons[1].startswith("error: killed: ended without giving a reason, as if killed")
+    logger.removeHandler(failures)

@@ -43,7 +43,7 @@ def test_groups_hold_rules_that_are_submitted() -> None:
 
 def test_jobs_are_promised_half_more_than_the_most_they_took() -> None:
     """On a cluster the promise is a limit."""
-    measured = pd.read_csv(ROOT / "reports/benchmarks.csv", index_col="name")["value"]
+    measured = pd.read_csv(ROOT / "docs/results/benchmarks.csv", index_col="name")["value"]
     peaks_mib = measured.filter(like="peak memory of ")
     promised_mb = {rule: needs["mem_mb"] for rule, needs in DEFAULT["set-resources"].items()}
     known = {name.removeprefix("peak memory of "): value for name, value in peaks_mib.items()}

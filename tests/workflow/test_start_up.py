@@ -11,7 +11,6 @@ from repository import ROOT, Repository
 
 from grasptypes.predictors.weights import WEIGHTS_VARIABLE
 from grasptypes.versions.guard import FolderLock
-from grasptypes.versions.job_records import record_path
 
 
 def test_the_main_job_is_complete_and_small(fresh: Repository) -> None:
@@ -76,11 +75,8 @@ def test_a_damaged_record_of_the_backbone_is_made_anew(
 ) -> None:
     monkeypatch.delenv(WEIGHTS_VARIABLE, raising=False)
     record = Path("data/backbone.json")
-    known = repository.path / record_path(str(record))
-    for path in (repository.path / record, known):
-        path.parent.mkdir(parents=True, exist_ok=True)
+    (repository.path / record).parent.mkdir(parents=True, exist_ok=True)
     (repository.path / record).write_text(content)
-    known.write_text("{}")
     assert repository.planned()["prepare_backbone"] == 1
 
 

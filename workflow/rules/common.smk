@@ -1,4 +1,6 @@
 # What all rules share: the checked parameters, the names to loop over, and content hashes.
+import re
+
 from grasptypes.labels.label_sources import label_sources
 from grasptypes.labels.published_source import FETCHED, published_address, published_path
 from grasptypes.objects.own_objects import measured_map
@@ -6,7 +8,6 @@ from grasptypes.objects.reference_meshes import reference_meshes
 from grasptypes.objects.variants import all_objects, all_variants, base_of
 from grasptypes.predictors.weights import DOWNLOAD_SHA256_START, WEIGHTS_VARIABLE, chosen_weights
 from grasptypes.start_up import check_start
-from grasptypes.versions.job_records import is_recorded
 from grasptypes.content_hash import CodeHash, FileHash
 
 PUBLISHED_COUNTS = "assets/published_labels.csv"
@@ -22,8 +23,15 @@ try:
 except InputError as error:
     sys.exit(f"error: {error}")
 
-file_hash = FileHash(".snakemake/file_hashes.json")
+file_hash = FileHash(FILE_HASHES)
 code_hash = CodeHash(".snakemake/code_hashes.json")
+
+
+def job_name(rule):
+    """A rule's name, and the wildcards of its jobs in the order in which its outputs have them."""
+    wildcards = re.findall(r"{(\w+)", rule.output[0])
+    names = "_".join(f"{{{word}}}" for word in wildcards)
+    return f"{rule.name}/{names}" if names else rule.name
 
 
 def settings(section, *left_out):
@@ -136,10 +144,9 @@ def learning_tasks(wildcards):
 def weights_choice(record="data/backbone.json"):
     """The user's choice of weights; without one, that of the results at hand.
 
-    So results that were pulled are not computed again for want of the weights they were made with;
-    those that only lie in git are, with the weights there are.
+    So results that were pulled are not computed again for want of the weights they were made with.
     """
-    if WEIGHTS_VARIABLE in os.environ or not (Path(record).is_file() and is_recorded(record)):
+    if WEIGHTS_VARIABLE in os.environ or not Path(record).is_file():
         return chosen_weights()
     try:
         found = json.loads(Path(record).read_text())

@@ -19,12 +19,6 @@ rule tabulate_types:
             category="Results",
             labels={"subject": "grasp types", "labels": "both", "kind": "figure"},
         ),
-    log:
-        "logs/tabulate_types.log",
-    benchmark:
-        "logs/benchmarks/tabulate_types.tsv"
-    conda:
-        "../envs/grasptypes.yaml"
     params:
         names=NAMES,
         labels=LABELS,
@@ -53,12 +47,6 @@ rule tabulate_objects:
             category="Results",
             labels={"subject": "objects", "labels": "both", "kind": "figure"},
         ),
-    log:
-        "logs/tabulate_objects.log",
-    benchmark:
-        "logs/benchmarks/tabulate_objects.tsv"
-    conda:
-        "../envs/grasptypes.yaml"
     params:
         names=NAMES,
         labels=LABELS,
@@ -79,12 +67,6 @@ rule plot_folds:
             category="Folds",
             labels={"subject": "spread", "labels": "both", "model": "all"},
         ),
-    log:
-        "logs/plot_folds.log",
-    benchmark:
-        "logs/benchmarks/plot_folds.tsv"
-    conda:
-        "../envs/grasptypes.yaml"
     params:
         code=script_hash("plot_folds"),
     message:
@@ -103,12 +85,6 @@ rule plot_losses:
             category="Folds",
             labels={"subject": "losses", "labels": "both", "model": "all"},
         ),
-    log:
-        "logs/plot_losses.log",
-    benchmark:
-        "logs/benchmarks/plot_losses.tsv"
-    conda:
-        "../envs/grasptypes.yaml"
     params:
         names=NAMES,
         code=script_hash("plot_losses"),

@@ -9,12 +9,6 @@ rule picture_grasps:
         visual=rules.prepare_object.output.visual,
     output:
         pictures="data/screenshots/{object}.zip",
-    log:
-        "logs/picture_grasps/{object}.log",
-    benchmark:
-        "logs/benchmarks/picture_grasps/{object}.tsv"
-    conda:
-        "../envs/grasptypes.yaml"
     params:
         tasks=TASKS,
         renders=settings("renders", "views", "sheet"),
@@ -37,12 +31,6 @@ rule plot_grasps:
             category="Grasps",
             labels={"subject": "gallery", "kind": "figure"},
         ),
-    log:
-        "logs/plot_grasps.log",
-    benchmark:
-        "logs/benchmarks/plot_grasps.tsv"
-    conda:
-        "../envs/grasptypes.yaml"
     params:
         names=[(name, task) for name in OBJECTS for task in TASKS],
         objects=OBJECTS,
@@ -66,12 +54,6 @@ rule plot_rejected_grasps:
             category="Grasps",
             labels={"subject": "rejected grasps", "kind": "figure"},
         ),
-    log:
-        "logs/plot_rejected_grasps.log",
-    benchmark:
-        "logs/benchmarks/plot_rejected_grasps.tsv"
-    conda:
-        "../envs/grasptypes.yaml"
     params:
         objects=OBJECTS,
         renders=settings("renders", "views", "sheet"),
@@ -98,12 +80,6 @@ rule plot_sessions:
             )
             for name in OBJECTS
         ],
-    log:
-        "logs/plot_sessions.log",
-    benchmark:
-        "logs/benchmarks/plot_sessions.tsv"
-    conda:
-        "../envs/grasptypes.yaml"
     params:
         objects=OBJECTS,
         tasks=TASKS,

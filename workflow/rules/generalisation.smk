@@ -7,14 +7,8 @@ rule picture_variants:
         backbone=rules.prepare_backbone.output.record,
     output:
         features="data/generalisation/features/{object}.npz",
-    log:
-        "logs/picture_variants/{object}.log",
-    benchmark:
-        "logs/benchmarks/picture_variants/{object}.tsv"
     wildcard_constraints:
         object="|".join(config["objects"]["names"]) or "none",
-    conda:
-        "../envs/grasptypes.yaml"
     params:
         settings={
             "objects": variant_settings(),
@@ -44,12 +38,6 @@ rule leave_out_shapes:
         backbone=rules.prepare_backbone.output.record,
     output:
         metrics="data/generalisation/{labels}/{model}.csv",
-    log:
-        "logs/leave_out_shapes/{labels}_{model}.log",
-    benchmark:
-        "logs/benchmarks/leave_out_shapes/{labels}_{model}.tsv"
-    conda:
-        "../envs/grasptypes.yaml"
     params:
         settings=lambda wildcards: {
             "tasks": learning_tasks(wildcards),
@@ -81,10 +69,6 @@ rule tabulate_generalisation:
             category="Unseen objects",
             labels={"subject": "more shapes", "labels": "both", "kind": "figure"},
         ),
-    log:
-        "logs/tabulate_generalisation.log",
-    conda:
-        "../envs/grasptypes.yaml"
     params:
         labels=LABELS,
         code=script_hash("tabulate_generalisation"),

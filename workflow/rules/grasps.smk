@@ -11,12 +11,6 @@ rule synthesize_grasps:
     output:
         grasps="data/grasps/{object}/{task}.parquet",
         attempts="data/attempts/{object}/{task}.parquet",
-    log:
-        "logs/synthesize_grasps/{object}_{task}.log",
-    benchmark:
-        "logs/benchmarks/synthesize_grasps/{object}_{task}.tsv"
-    conda:
-        "../envs/grasptypes.yaml"
     params:
         synthesis=settings("synthesis"),
         physics=settings("physics"),

@@ -8,28 +8,19 @@ rule evaluate_labels:
         # Models of our own stand in where there is no scan.
         own=expand("data/objects/{object}/surface.npz", object=without_scan()),
     output:
-        # Kept as they are where the data are lacking.
         table=report(
-            update("reports/label_agreement.csv"),
+            "reports/label_agreement.csv",
             caption="../report/label_agreement.rst",
             category="Grasp types",
             labels={"subject": "agreement with people", "kind": "table"},
         ),
-        validation=update("reports/label_cross_validation.csv"),
+        validation="reports/label_cross_validation.csv",
         figure=report(
-            update("reports/figures/label_confusion.png"),
+            "reports/label_confusion.png",
             caption="../report/label_agreement.rst",
             category="Grasp types",
             labels={"subject": "agreement with people", "kind": "figure"},
         ),
-        # A clone holds the table, but not from which data: without this it would not be made anew.
-        done=touch("logs/evaluate_labels.done"),
-    log:
-        "logs/evaluate_labels.log",
-    benchmark:
-        "logs/benchmarks/evaluate_labels.tsv"
-    conda:
-        "../envs/grasptypes.yaml"
     params:
         settings=settings("grasp_types"),
         data=lambda wildcards: measuring_hashes(),
@@ -48,12 +39,6 @@ rule label_grasps:
     output:
         grasps="data/grasps.csv",
         samples="data/samples.csv",
-    log:
-        "logs/label_grasps.log",
-    benchmark:
-        "logs/benchmarks/label_grasps.tsv"
-    conda:
-        "../envs/grasptypes.yaml"
     params:
         settings=settings("grasp_types", "fitted_on", "softness", "own_frames"),
         code=script_hash("label_grasps"),
@@ -80,12 +65,6 @@ rule compare_distribution:
             category="Grasp types",
             labels={"subject": "distribution", "kind": "figure"},
         ),
-    log:
-        "logs/compare_distribution.log",
-    benchmark:
-        "logs/benchmarks/compare_distribution.tsv"
-    conda:
-        "../envs/grasptypes.yaml"
     params:
         published=hashes("assets/published_labels.csv"),
         code=script_hash("compare_distribution"),
@@ -106,12 +85,6 @@ rule plot_label_tree:
             category="Grasp types",
             labels={"subject": "label tree", "kind": "figure"},
         ),
-    log:
-        "logs/plot_label_tree.log",
-    benchmark:
-        "logs/benchmarks/plot_label_tree.tsv"
-    conda:
-        "../envs/grasptypes.yaml"
     params:
         objects=OBJECTS,
         thresholds=config["grasp_types"]["thresholds"],

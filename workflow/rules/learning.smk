@@ -16,10 +16,6 @@ rule label_published:
         counts=PUBLISHED_COUNTS,
     output:
         samples=SAMPLES["published"],
-    log:
-        "logs/label_published.log",
-    conda:
-        "../envs/grasptypes.yaml"
     params:
         objects=KNOWN["published"].objects,
         tasks=KNOWN["published"].tasks,
@@ -34,10 +30,6 @@ rule label_published:
 rule prepare_backbone:
     output:
         record="data/backbone.json",
-    log:
-        "logs/prepare_backbone.log",
-    conda:
-        "../envs/grasptypes.yaml"
     params:
         timeout_s=config["backbone"]["timeout_s"],
         input_px=config["backbone"]["input_px"],
@@ -55,12 +47,6 @@ rule extract_features:
         backbone=rules.prepare_backbone.output.record,
     output:
         features="data/features/{object}.npz",
-    log:
-        "logs/extract_features/{object}.log",
-    benchmark:
-        "logs/benchmarks/extract_features/{object}.tsv"
-    conda:
-        "../envs/grasptypes.yaml"
     params:
         settings=settings("features"),
         tasks=config["tasks"],
@@ -76,10 +62,6 @@ rule split_folds:
         poses=expand(rules.render_object.output.poses, object=OBJECTS),
     output:
         folds="data/folds.csv",
-    log:
-        "logs/split_folds.log",
-    conda:
-        "../envs/grasptypes.yaml"
     params:
         folds=config["folds"]["count"],
         seed=config["seed"],
@@ -107,12 +89,6 @@ rule train_predictor:
         predictions="models/{labels}/{model}/predictions.parquet",
         tensors="models/{labels}/{model}/predictor.safetensors",
         card="models/{labels}/{model}/predictor.json",
-    log:
-        "logs/train_predictor/{labels}_{model}.log",
-    benchmark:
-        "logs/benchmarks/train_predictor/{labels}_{model}.tsv"
-    conda:
-        "../envs/grasptypes.yaml"
     params:
         settings=settings("predictors"),
         precision=config["features"]["precision"],
@@ -133,12 +109,6 @@ rule leave_out_objects:
         backbone=rules.prepare_backbone.output.record,
     output:
         metrics="reports/unseen/{labels}/{model}.csv",
-    log:
-        "logs/leave_out_objects/{labels}_{model}.log",
-    benchmark:
-        "logs/benchmarks/leave_out_objects/{labels}_{model}.tsv"
-    conda:
-        "../envs/grasptypes.yaml"
     params:
         settings=settings("predictors"),
         tasks=learning_tasks,

@@ -10,14 +10,8 @@ rule prepare_object:
         collision="data/objects/{object}/collision.obj",
         distance_grid="data/objects/{object}/distance_grid.npz",
         properties="data/objects/{object}/properties.json",
-    log:
-        "logs/prepare_object/{object}.log",
-    benchmark:
-        "logs/benchmarks/prepare_object/{object}.tsv"
     wildcard_constraints:
         object="|".join(name for name in OBJECTS if name not in VARIANTS),
-    conda:
-        "../envs/grasptypes.yaml"
     params:
         settings=object_settings,
         own=lambda wildcards: hashes(own_mesh(wildcards)),
@@ -35,15 +29,9 @@ rule prepare_variant:
         collision="data/objects/{object}/collision.obj",
         distance_grid="data/objects/{object}/distance_grid.npz",
         properties="data/objects/{object}/properties.json",
-    log:
-        "logs/prepare_variant/{object}.log",
-    benchmark:
-        "logs/benchmarks/prepare_variant/{object}.tsv"
     wildcard_constraints:
         # No object of this name, if there are no variants.
         object="|".join(VARIANTS) or "none",
-    conda:
-        "../envs/grasptypes.yaml"
     params:
         settings=variant_settings(),
         seed=config["seed"],
@@ -61,12 +49,6 @@ rule map_contacts:
         measured=measured_input,
     output:
         contact_map="data/contact_maps/{object}/{task}.npz",
-    log:
-        "logs/map_contacts/{object}_{task}.log",
-    benchmark:
-        "logs/benchmarks/map_contacts/{object}_{task}.tsv"
-    conda:
-        "../envs/grasptypes.yaml"
     params:
         settings=contact_settings,
         measured=lambda wildcards: hashes(measured_input(wildcards)),
@@ -92,7 +74,7 @@ rule contact_maps:
         "All contact maps are drawn"
 
 
-# Few users have the references; without them the table in the repository stays.
+# Few users have the references, so it is not part of any other target.
 rule compare_shapes:
     input:
         references=REFERENCE_MESHES,
@@ -100,19 +82,11 @@ rule compare_shapes:
         surfaces=expand(rules.prepare_object.output.surface, object=OBJECTS),
     output:
         table=report(
-            update("reports/object_shapes.csv"),
+            "reports/object_shapes.csv",
             caption="../report/object_shapes.rst",
             category="Objects",
             labels={"subject": "shapes against scans", "kind": "table"},
         ),
-        # A clone holds the table, but not from which data: without this it would not be made anew.
-        done=touch("logs/compare_shapes.done"),
-    log:
-        "logs/compare_shapes.log",
-    benchmark:
-        "logs/benchmarks/compare_shapes.tsv"
-    conda:
-        "../envs/grasptypes.yaml"
     params:
         samples=config["objects"]["comparison"],
         data=lambda wildcards: hashes(REFERENCE_MESHES),
@@ -137,12 +111,6 @@ rule plot_contact_maps:
             category="Objects",
             labels={"subject": "contact maps", "kind": "figure"},
         ),
-    log:
-        "logs/plot_contact_maps.log",
-    benchmark:
-        "logs/benchmarks/plot_contact_maps.tsv"
-    conda:
-        "../envs/grasptypes.yaml"
     params:
         names=[(name, task) for name in OBJECTS for task in TASKS],
         objects=OBJECTS,

@@ -22,12 +22,6 @@ rule compare_plans:
             labels={"subject": "types chosen first", "kind": "table"},
         ),
         markdown="reports/planning.md",
-    log:
-        "logs/compare_plans.log",
-    benchmark:
-        "logs/benchmarks/compare_plans.tsv"
-    conda:
-        "../envs/grasptypes.yaml"
     threads: 2
     params:
         params={

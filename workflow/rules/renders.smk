@@ -7,12 +7,6 @@ rule render_object:
     output:
         pictures="data/renders/{object}.zip",
         poses="data/renders/{object}.csv",
-    log:
-        "logs/render_object/{object}.log",
-    benchmark:
-        "logs/benchmarks/render_object/{object}.tsv"
-    conda:
-        "../envs/grasptypes.yaml"
     params:
         settings=render_settings,
         seed=config["seed"],
@@ -33,12 +27,6 @@ rule plot_renders:
             category="Objects",
             labels={"subject": "renders", "kind": "figure"},
         ),
-    log:
-        "logs/plot_renders.log",
-    benchmark:
-        "logs/benchmarks/plot_renders.tsv"
-    conda:
-        "../envs/grasptypes.yaml"
     params:
         objects=OBJECTS,
         sheet=config["renders"]["sheet"],

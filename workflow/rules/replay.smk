@@ -5,10 +5,6 @@
 rule fetch_published:
     output:
         table=FETCHED,
-    log:
-        "logs/fetch_published.log",
-    conda:
-        "../envs/grasptypes.yaml"
     params:
         address=list(published_address(os.environ) or []),
         timeout_s=config["published"]["timeout_s"],
@@ -24,21 +20,12 @@ rule replay_grasps:
         published=PUBLISHED_CSV,
         references=REFERENCE_MESHES,
     output:
-        # Kept as it is where the data are lacking.
         table=report(
-            update("reports/replay.csv"),
+            "reports/replay.csv",
             caption="../report/replay.rst",
             category="Grasps",
             labels={"subject": "published poses", "kind": "table"},
         ),
-        # A clone holds the table, but not from which data: without this it would not be made anew.
-        done=touch("logs/replay_grasps.done"),
-    log:
-        "logs/replay_grasps.log",
-    benchmark:
-        "logs/benchmarks/replay_grasps.tsv"
-    conda:
-        "../envs/grasptypes.yaml"
     params:
         settings=config["replay"],
         data=lambda wildcards: measuring_hashes(),
@@ -59,12 +46,6 @@ rule derive_affinities:
         evidence="reports/contact_evidence/grasps.csv",
         summary="reports/contact_evidence/summary.csv",
         pattern="reports/contact_evidence/pattern.csv",
-    log:
-        "logs/derive_affinities.log",
-    benchmark:
-        "logs/benchmarks/derive_affinities.tsv"
-    conda:
-        "../envs/grasptypes.yaml"
     params:
         objects=OBJECTS,
         scale=config["replay"]["object_scale"],

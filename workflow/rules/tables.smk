@@ -19,10 +19,6 @@ rule tabulate_simulated:
             category="Results",
             labels={"subject": "Table I", "labels": "simulated", "kind": "figure"},
         ),
-    log:
-        "logs/tabulate_simulated.log",
-    conda:
-        "../envs/grasptypes.yaml"
     params:
         labels=["simulated"],
         unseen=False,
@@ -51,8 +47,6 @@ use rule tabulate_simulated as tabulate_published with:
             category="Results",
             labels={"subject": "Table I", "labels": "published", "kind": "figure"},
         ),
-    log:
-        "logs/tabulate_published.log",
     params:
         labels=["published"],
         unseen=False,
@@ -79,8 +73,6 @@ use rule tabulate_simulated as tabulate_unseen with:
             category="Unseen objects",
             labels={"subject": "Table II", "labels": "both", "kind": "figure"},
         ),
-    log:
-        "logs/tabulate_unseen.log",
     params:
         labels=LABELS,
         unseen=True,
@@ -108,10 +100,6 @@ rule summarise_scores:
     output:
         models=expand("reports/scores/{labels}/{model}.json", labels=LABELS, model=MODELS),
         grasps="reports/scores/grasps.json",
-    log:
-        "logs/summarise_scores.log",
-    conda:
-        "../envs/grasptypes.yaml"
     params:
         code=script_hash("summarise_scores"),
     message:

@@ -1,4 +1,4 @@
-"""Compare prepared objects with a folder of reference meshes; without one, keep the table."""
+"""Compare prepared objects with a folder of reference meshes."""
 
 import os
 from pathlib import Path
@@ -13,19 +13,17 @@ from grasptypes.tables import write_table
 def compare_shapes(
     objects: list[Path], references: str, samples: dict[str, int], target: Path
 ) -> str:
-    """Write the table of comparisons, or keep it without references; returns a line to log.
+    """Write the table of comparisons; returns a line to log.
 
     Args:
         objects: folders of prepared objects.
         references: folder of `<object>.stl`; empty if the user has none.
     """
-    if references:
-        table = compare_folder(objects, Path(references), **samples)
-        write_table(table, target, SHAPE_TABLE)
-        return f"compared {len(table)} objects with {references}"
-    if not target.exists():
-        raise InputError(REFERENCES, "", f"is not set and there is no {target} to keep")
-    return f"{REFERENCES} is not set: {target} stays as it is"
+    if not references:
+        raise InputError(REFERENCES, "", f"is not set; {target} needs it")
+    table = compare_folder(objects, Path(references), **samples)
+    write_table(table, target, SHAPE_TABLE)
+    return f"compared {len(table)} objects with {references}"
 
 
 if __name__ == "__main__":

@@ -1,4 +1,4 @@
-"""Replay the published hand poses on reference meshes; without them, keep the table."""
+"""Replay the published hand poses on reference meshes."""
 
 import os
 from collections.abc import Sequence
@@ -16,19 +16,21 @@ from grasptypes.tables import write_table
 def replay_grasps(
     published: str, scans: Sequence[Path], settings: ReplaySettings, target: Path
 ) -> str:
-    """Write the replay table, or keep it if the user lacks the data; returns a line to log.
+    """Write the replay table; returns a line to log.
 
     Args:
         published: the authors' GraspTypesWithTasks.csv; empty if the user has none.
         scans: `<object>.stl` each; none if the user has none.
     """
     if not (published and scans):
-        lacking = REFERENCES if published else PUBLISHED
-        if not target.exists():
-            raise InputError(lacking, "", f"is not set and there is no {target} to keep")
-        return f"{lacking} is not set: {target} stays as it is"
+        raise InputError(
+            REFERENCES if published else PUBLISHED, "", f"is not set; {target} needs it"
+        )
     meshes = {path.stem: path for path in scans}
-    table = replay(read_published(published), meshes, settings)
+    grasps = read_published(published)
+    if not grasps.object.isin(list(meshes)).any():
+        raise InputError(published, "", "has no grasp of an object that has a scan")
+    table = replay(grasps, meshes, settings)
     write_table(table, target, REPLAY_SCHEMA)
     return f"replayed {table['n'].sum()} poses on {len(table)} scans"
 

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
+from grasptypes.errors import InputError
 from grasptypes.labels.agreement import Judged, judge
 from grasptypes.labels.contacts import ContactSettings
 from grasptypes.labels.published import read_published
@@ -44,7 +45,10 @@ def judge_published(
         scale: of the reference meshes.
         settings: `contacts` and `own_frames`, of the `grasp_types` section of params.yaml.
     """
-    published = read_published(published_path(environment))
+    path = published_path(environment)
+    published = read_published(path)
+    if published.hand_configuration.isna().all():
+        raise InputError(path, "", "has no grasp with a hand configuration")
     names = sorted(published.object.unique())
     references = environment[REFERENCES]
     fields = object_distances(names, references, own, scale, settings["own_frames"])

@@ -7,90 +7,65 @@ twice adds nothing, and a deleted store is rebuilt with the same runs.
 from __future__ import annotations
 
 import contextlib
-import fcntl
 import json
-import logging
 import os
 import sqlite3
-import time
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator, Sequence
+from importlib.metadata import version
 from pathlib import Path
-from typing import IO
 
 import mlflow
 import numpy as np
-from mlflow.entities import LifecycleStage, Metric, Param, Run
+from filelock import FileLock
+from mlflow.entities import LifecycleStage, Metric, Param
 from mlflow.exceptions import MlflowException
 from mlflow.models import ModelSignature
 from mlflow.types import Schema, TensorSpec
 from sqlalchemy.exc import SQLAlchemyError
 
+import grasptypes.errors
+from grasptypes.downloads import file_sha256
 from grasptypes.errors import InputError
-from grasptypes.runs.run_records import RunRecord
+from grasptypes.predictors.predictor_files import read_card
+from grasptypes.runs.run_records import RunRecord, TrainedModel
+from grasptypes.settings.commands import TrackingSettings
 
-LOGGER = logging.getLogger("grasptypes")
 KEY_TAG = "grasptypes.key"
 MODEL_TAG = "grasptypes.model"
 # MLflow's own tag for a shared view of the runs.
 VIEW = "results"
 VIEW_TAG = f"mlflow.sharedViewState.{VIEW}"
+# Copied into every model, with the versions of what it imports.
+PACKAGE = Path(grasptypes.errors.__file__).parent
+SERVING_PACKAGES = (
+    "efficientnet-lite-pytorch",
+    "mlflow",
+    "numpy",
+    "pandas",
+    "pandera",
+    "pillow",
+    "pyarrow",
+    "pydantic",
+    "safetensors",
+    "torch",
+    "torchvision",
+)
 _BATCH = 1000  # the most metrics MLflow takes at once
 _PARAM_LENGTH = 6000  # the longest parameter MLflow takes
-
-
-@dataclass(frozen=True)
-class LoggedModel:
-    """Files of a predictor that MLflow can serve by itself.
-
-    Attributes:
-        name: of the model in MLflow.
-        artifacts: what :mod:`grasptypes.runs.serving` reads, by name.
-        package: folder of this package, copied into the model.
-        requirements: packages of the serving environment.
-        example_pictures: (1, H, W, 3) uint8.
-        example_task: the task asked for.
-        outputs: number of grasp types.
-    """
-
-    name: str
-    artifacts: Mapping[str, Path]
-    package: Path
-    requirements: Sequence[str]
-    example_pictures: np.ndarray
-    example_task: str
-    outputs: int
-
-    def signature(self) -> ModelSignature:
-        """Pictures of any size and a task each, to logit-derived probabilities."""
-        inputs = [
-            TensorSpec(np.dtype(np.uint8), (-1, -1, -1, 3), "image"),
-            TensorSpec(np.dtype(str), (-1,), "task"),
-        ]
-        outputs = [
-            TensorSpec(np.dtype(np.float32), (-1, self.outputs), name)
-            for name in ("probability", "sigmoid")
-        ]
-        return ModelSignature(Schema(inputs), Schema(outputs))
-
-    def example(self) -> dict[str, np.ndarray]:
-        """One call's input."""
-        return {"image": self.example_pictures, "task": np.array([self.example_task])}
 
 
 class Store:
     """An MLflow store in one SQLite file, written by one process at a time.
 
     Args:
-        database: the file; its folder also takes the models.
-        experiment: name under which the runs stand.
-        patience_s: how long to wait for a store that somebody else is writing.
+        settings: the file, whose folder also takes the models, the experiment, and the patience
+            with a store that somebody else is writing.
     """
 
-    def __init__(self, database: str | Path, experiment: str, patience_s: float) -> None:
-        self.database = Path(database).resolve()
-        self.experiment = experiment
-        self.patience_s = patience_s
+    def __init__(self, settings: TrackingSettings) -> None:
+        self.database = Path(settings.database).resolve()
+        self.experiment = settings.experiment
+        self.patience_s = settings.patience_s
         self.uri = f"sqlite:///{self.database}"
 
     @contextlib.contextmanager
@@ -106,15 +81,14 @@ class Store:
         os.environ.setdefault("MLFLOW_DISABLE_TELEMETRY", "true")
         try:
             self.database.parent.mkdir(parents=True, exist_ok=True)
-            with self.database.with_suffix(".lock").open("w") as lock:
-                self._wait_for(lock)
+            with FileLock(self.database.with_suffix(".lock"), timeout=self.patience_s):
                 self._check_writable()
                 mlflow.set_tracking_uri(self.uri)
                 client = mlflow.MlflowClient(self.uri)
                 yield OpenStore(client, self._experiment_of(client))
         except (OSError, sqlite3.Error, MlflowException, SQLAlchemyError) as error:
             reason = str(error).split("\n")[0]
-            later = "results do not depend on it, show them later with: make publish"
+            later = "results do not depend on it; show them later with: make publish"
             raise InputError(self.database, "", f"cannot be written: {reason}; {later}") from error
 
     def page(self) -> str:
@@ -126,18 +100,6 @@ class Store:
         with self.opened() as opened:
             query = f"workflowType=machine_learning&viewStateShareKey={VIEW}"
             return f"#/experiments/{opened.experiment}/runs?{query}"
-
-    def _wait_for(self, lock: IO[str]) -> None:
-        """Take the lock, or raise TimeoutError once patience is over."""
-        deadline = time.monotonic() + self.patience_s
-        while True:
-            try:
-                return fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
-            except BlockingIOError as error:
-                if time.monotonic() > deadline:
-                    message = f"another process has been publishing for {self.patience_s:g} s"
-                    raise TimeoutError(message) from error
-                time.sleep(0.1)
 
     def _check_writable(self) -> None:
         """Begin to write, and leave it at that."""
@@ -165,70 +127,67 @@ class OpenStore:
         self._client = client
         self.experiment = experiment
 
-    def find(self, key: str) -> Run | None:
-        """The run with this key."""
-        query = f"tags.`{KEY_TAG}` = '{key}'"
-        runs = self._client.search_runs([self.experiment], query, max_results=1)
-        return runs[0] if runs else None
-
-    def upsert(self, record: RunRecord, parent: str | None = None) -> tuple[str, int]:
-        """Write a run and its children; returns its id and the number of runs that are new.
+    def upsert(self, record: RunRecord, parent: str | None = None) -> str:
+        """Write a run and its children; returns its id.
 
         A run that is there keeps its tags: later commits and data are not those it was made from.
         """
-        run = self.find(record.key)
-        added = int(run is None)
-        if run is None:
+        query = f"tags.`{KEY_TAG}` = '{record.key}'"
+        found = self._client.search_runs([self.experiment], query, max_results=1)
+        if found:
+            run = found[0]
+        else:
             tags = {**record.tags, KEY_TAG: record.key, "mlflow.runName": record.name}
             tags |= {"mlflow.parentRunId": parent} if parent else {}
-            run = self._client.create_run(self.experiment, start_time=record.start_ms, tags=tags)
+            start_ms = record.times_ms[0]
+            run = self._client.create_run(self.experiment, start_time=start_ms, tags=tags)
         identity = run.info.run_id
         if run.info.status != "FINISHED":
             # The run's own times: when an interrupted call is repeated, no value is there twice.
             self._write(identity, record, run.info.start_time)
-            self._client.set_terminated(identity, "FINISHED", end_time=record.end_ms)
+            self._client.set_terminated(identity, "FINISHED", end_time=record.times_ms[1])
         for child in record.children:
-            added += self.upsert(child, identity)[1]
-        return identity, added
+            self.upsert(child, identity)
+        return str(identity)
 
     def offer_view(self, metrics: Sequence[str]) -> None:
         """Keep a view of the runs that has these metrics as columns."""
         state = json.dumps({"selectedColumns": [f"metrics.`{name}`" for name in metrics]})
         self._client.set_experiment_tag(self.experiment, VIEW_TAG, state)
 
-    def log_model(self, run: str, key: str, model: LoggedModel) -> bool:
-        """Log a servable predictor with a run, unless the same one is there; returns if it was.
+    def log_model(self, run: str, model: TrainedModel, weights: Path, picture: np.ndarray) -> None:
+        """Log a servable predictor with a run, unless the same one is there.
 
         The run keeps the time at which its training ended.
+
+        Args:
+            weights: those of the backbone.
+            picture: an example, (H, W, 3) uint8.
         """
-        known = self._client.get_run(run)
+        known, key = self._client.get_run(run), file_sha256(model.tensors)
         if known.data.tags.get(MODEL_TAG) == key:
-            return False
-        self._forget_models(run)
+            return
+        # Halves of calls that were cut off, or older ones.
+        mine = f"source_run_id = '{run}'"
+        for old in self._client.search_logged_models([self.experiment], filter_string=mine):
+            self._client.delete_logged_model(old.model_id)
+        card = read_card(model.card)
+        files = {"tensors": model.tensors, "card": model.card, "weights": weights}
         with mlflow.start_run(run_id=run):
             mlflow.pyfunc.log_model(
-                name=model.name,
-                python_model=str(model.package / "runs" / "serving.py"),
-                artifacts={name: str(path) for name, path in model.artifacts.items()},
-                code_paths=[str(model.package)],
-                signature=model.signature(),
-                input_example=model.example(),
-                pip_requirements=list(model.requirements),
+                name=f"{card.labels}_{card.model}",
+                python_model=str(PACKAGE / "runs" / "serving.py"),
+                artifacts={name: str(path) for name, path in files.items()},
+                code_paths=[str(PACKAGE)],
+                signature=signature(len(card.types)),
+                input_example={"image": picture[None], "task": np.array([card.tasks[0]])},
+                pip_requirements=[f"{name}=={version(name)}" for name in SERVING_PACKAGES],
             )
         self._client.set_terminated(run, known.info.status, end_time=known.info.end_time)
         self._client.set_tag(run, MODEL_TAG, key)
-        return True
-
-    def _forget_models(self, run: str) -> None:
-        """Delete the models of a run: halves of calls that were cut off, or older ones."""
-        models = self._client.search_logged_models(
-            [self.experiment], filter_string=f"source_run_id = '{run}'"
-        )
-        for model in models:
-            self._client.delete_logged_model(model.model_id)
 
     def _write(self, run: str, record: RunRecord, stamp_ms: int) -> None:
-        params = [Param(name, str(value)[:_PARAM_LENGTH]) for name, value in record.params.items()]
+        params = [Param(name, value[:_PARAM_LENGTH]) for name, value in record.params.items()]
         metrics = [Metric(name, value, stamp_ms, 0) for name, value in record.metrics.items()]
         metrics += [
             Metric(name, float(value), stamp_ms, epoch)
@@ -241,33 +200,12 @@ class OpenStore:
             self._client.log_batch(run, metrics=metrics[start : start + _BATCH])
 
 
-def publish(
-    store: Store,
-    records: Sequence[RunRecord],
-    models: Mapping[str, tuple[str, LoggedModel]],
-    columns: Sequence[str] = (),
-) -> int:
-    """Write runs, and the models that belong to them.
-
-    The store is locked for one record at a time, so that nobody waits for all of them.
-
-    Args:
-        models: key of a record to its model's content key and the model.
-        columns: metrics that the view of the runs shows.
-
-    Returns:
-        number of runs that were not there before.
-
-    Raises:
-        InputError: the store cannot be written.
-    """
-    added = 0
-    for record in records:
-        with store.opened() as opened:
-            opened.offer_view(columns)
-            run, new = opened.upsert(record)
-            added += new
-            if record.key in models and opened.log_model(run, *models[record.key]):
-                LOGGER.info("logged the model of %s", record.name)
-            LOGGER.info("%s: %d new of %d runs", record.name, new, 1 + len(record.children))
-    return added
+def signature(types: int) -> ModelSignature:
+    """Pictures of any size and a task each, to a probability and a sigmoid of each type."""
+    inputs = [
+        TensorSpec(np.dtype(np.uint8), (-1, -1, -1, 3), "image"),
+        TensorSpec(np.dtype(str), (-1,), "task"),
+    ]
+    names = ("probability", "sigmoid")
+    outputs = [TensorSpec(np.dtype(np.float32), (-1, types), name) for name in names]
+    return ModelSignature(Schema(inputs), Schema(outputs))

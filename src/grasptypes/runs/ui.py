@@ -1,34 +1,16 @@
-"""The MLflow UI on the store that params.yaml names; ``python -m grasptypes.runs.ui``.
-
-What is finished is published before; the UI starts all the same if that fails.
-"""
+"""The MLflow UI on the store that params.yaml names; ``python -m grasptypes.runs.ui``."""
 
 from __future__ import annotations
 
 import argparse
-import logging
 import os
 import sys
-from pathlib import Path
 
 from grasptypes.errors import InputError
-from grasptypes.runs.publishing import chosen_store, publish_folder
 from grasptypes.runs.tracking import Store
+from grasptypes.settings.params import read_params
 
 HOST = "127.0.0.1"
-
-logger = logging.getLogger(__name__)
-
-
-def prepare(root: Path, store: Store, port: int) -> str:
-    """Publish, and say what went wrong; returns the address of the runs."""
-    page = ""
-    try:
-        page = store.page()
-        publish_folder(root, store)
-    except InputError as error:
-        logger.warning("%s", error)
-    return f"http://{HOST}:{port}/{page}"
 
 
 def server(store: Store, port: int) -> list[str]:
@@ -38,16 +20,16 @@ def server(store: Store, port: int) -> list[str]:
 
 
 def main() -> None:
-    """Publish and serve the current folder's runs."""
-    logging.basicConfig(level=logging.INFO, format="%(message)s")
+    """Print the address of the runs and serve them; bad input ends with one line."""
     parser = argparse.ArgumentParser(description="The MLflow UI on this checkout's runs.")
     parser.add_argument("--port", type=int, required=True)
     port = parser.parse_args().port
     try:
-        store = chosen_store(Path.cwd())
+        store = Store(read_params("params.yaml").tracking)
+        page = store.page()
     except InputError as error:
         sys.exit(f"error: {error}")
-    sys.stdout.write(f"runs: {prepare(Path.cwd(), store, port)}\n")
+    sys.stdout.write(f"runs: http://{HOST}:{port}/{page}\n")
     sys.stdout.flush()
     os.environ["MLFLOW_SERVER_ENABLE_JOB_EXECUTION"] = "false"
     os.execv(sys.executable, server(store, port))

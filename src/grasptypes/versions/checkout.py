@@ -38,13 +38,14 @@ def copy_checkout(source: str | Path, target: str | Path, changes: str | Path) -
         ["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"],
         cwd=source,
         capture_output=True,
+        text=True,
         check=False,
     )
     if listing.returncode != 0:
-        raise InputError(source, "", "not a git checkout")
+        raise InputError(source, "", f"git says: {listing.stderr.strip()}")
     params = merge(read_yaml(source / "params.yaml"), read_yaml(changes))
-    for name in filter(None, listing.stdout.decode().split("\0")):
-        if (source / name).is_file() and not name.startswith(("data/", "models/", "reports/")):
+    for name in filter(None, listing.stdout.split("\0")):
+        if (source / name).is_file():
             (target / name).parent.mkdir(parents=True, exist_ok=True)
             shutil.copy2(source / name, target / name)
     write_text(target / "params.yaml", yaml.safe_dump(params, sort_keys=False))

@@ -1,238 +1,232 @@
-"""From a folder of results to a real store: tags, nothing twice, and failures in one line."""
+"""From a trained model's files to a real store: nothing twice, rebuilt alike."""
 
+import contextlib
 import hashlib
-import json
-import logging
-import os
-import re
-import shutil
+import sqlite3
 import subprocess
 import sys
+import time
+from dataclasses import replace
 from pathlib import Path
 
 import mlflow
 import pandas as pd
 import pytest
+from filelock import FileLock
+from learning import random_weights, small_predictor
 
 from grasptypes.errors import InputError
+from grasptypes.files import write_json
 from grasptypes.predictors.metrics import METRICS
 from grasptypes.predictors.scoring import CURVE_SCHEMA, METRIC_SCHEMA
 from grasptypes.predictors.weights import WEIGHTS_VARIABLE
 from grasptypes.runs import ui
-from grasptypes.runs.publishing import (
-    checksum,
-    chosen_store,
-    finished_models,
-    publish_runs,
-    version_tags,
-)
+from grasptypes.runs.publishing import checksum, publish, version_tags
+from grasptypes.runs.run_records import RunRecord, TrainedModel, run_record
 from grasptypes.runs.tracking import KEY_TAG, Store
+from grasptypes.settings.commands import TrackingSettings
 from grasptypes.tables import write_table
-from grasptypes.versions.job_records import UNFINISHED, record_path
-from grasptypes.yaml_files import read_yaml
 
-PROJECT = Path(__file__).parents[3]
-CARD = "models/simulated/no_task/predictor.json"
+SETTINGS = {"seeds": 1, "finetuning": {"epochs": 3}}
+TIMES_MS = (1000, 61_000)
+RUN = RunRecord("key", "name", TIMES_MS, {"a": "b"}, {"m": 0.5}, {"loss": [3.0, 2.0]}, {})
 
 
-def git(root, *arguments):
-    who = ["-c", "user.name=A", "-c", "user.email=a@example.org"]
-    command = ["git", "-C", str(root), *who, *arguments]
-    return subprocess.run(command, capture_output=True, text=True, check=True).stdout.strip()
+def store_in(folder, patience_s=60):
+    return Store(
+        TrackingSettings(database=f"{folder}/mlflow.db", experiment="test", patience_s=patience_s)
+    )
 
 
 @pytest.fixture(scope="module")
-def results(tmp_path_factory):
-    """A checkout with one trained model: two folds, one seed."""
-    root = tmp_path_factory.mktemp("checkout")
-    params = read_yaml(PROJECT / "params.yaml")
-    trained_with = ["'c0de'", "0", repr(params["predictors"]), repr(params["tasks"])]
-    files = {
-        "params.yaml": (PROJECT / "params.yaml").read_text(),
-        str(record_path(CARD)): json.dumps({"rule": "train_predictor", "params": trained_with}),
-        "data/samples.csv": "object,task\n",
-        "data/folds.csv": "object,view,fold\n",
-        "data/features/apple.npz": "a",
-        "data/features/bowl.npz": "b",
-        "data/backbone.json": json.dumps(
-            {"backbone": "mobilenet_v2", "weights": "elsewhere", "sha256": "0", "input_px": 224}
-        ),
-        CARD: "{}",
-        "models/simulated/no_task/predictor.safetensors": "",
-        ".gitignore": "/mlflow.*\n/mlruns/\n",
+def model(tmp_path_factory):
+    """A trained model of two folds and one seed; its predictor only looks trained."""
+    root = tmp_path_factory.mktemp("model")
+    row = {
+        **{"labels": "simulated", "model": "no_task", "seed": 0, "n_train": 8, "n_test": 2},
+        **{"backbone": "mobilenet_v2", "weights": "random", "finetune": "none"},
     }
-    for name, content in files.items():
-        (root / name).parent.mkdir(parents=True, exist_ok=True)
-        (root / name).write_text(content)
-    for folder in ("metrics", "loss_curves"):
-        (root / "reports" / folder / "simulated").mkdir(parents=True)
-    folds = [
-        {"labels": "simulated", "model": "no_task", "group": group, "seed": 0, "n_train": 8,
-         "n_test": 2, **dict.fromkeys(METRICS, 0.5), "backbone": "mobilenet_v2",
-         "weights": "elsewhere", "finetune": "none"}
-        for group in "01"
-    ]  # fmt: skip
+    folds = [row | {"group": str(k), **dict.fromkeys(METRICS, 0.5 + 0.1 * k)} for k in range(2)]
     curves = [
-        {"group": group, "seed": 0, "epoch": 1, "train_loss": 1.0, "test_loss": 2.0}
-        for group in "01"
+        {"group": str(k), "seed": 0, "epoch": e, "train_loss": 3.0 - e, "test_loss": 4.0 - e + k}
+        for k in range(2)
+        for e in (1, 2)
     ]
-    write_table(pd.DataFrame(folds), root / "reports/metrics/simulated/no_task.csv", METRIC_SCHEMA)
-    write_table(
-        pd.DataFrame(curves), root / "reports/loss_curves/simulated/no_task.csv", CURVE_SCHEMA
-    )
-    git(root, "init", "-q")
-    git(root, "add", ".")
-    git(root, "commit", "-qm", "results")
-    return root
+    write_table(pd.DataFrame(folds), root / "metrics.csv", METRIC_SCHEMA)
+    write_table(pd.DataFrame(curves), root / "curves.csv", CURVE_SCHEMA)
+    small_predictor(root, random_weights(root / "random.pth"), "no_task")
+    names = ("metrics.csv", "curves.csv", "predictor.safetensors", "predictor.json")
+    return TrainedModel(*(root / name for name in names), TIMES_MS)
 
 
-def publish(root):
-    """What ``make publish`` does; returns how many runs are new."""
-    return publish_runs(finished_models(root), root, version_tags(root), chosen_store(root))
+@pytest.fixture(scope="module")
+def data(model):
+    """What it was made from, with the record of weights that nobody here has."""
+    root = model.card.parent
+    record = {"backbone": "mobilenet_v2", "weights": "elsewhere", "sha256": "0", "input_px": 32}
+    write_json(root / "backbone.json", record)
+    return {"backbone": [root / "backbone.json"], "tables": [model.metrics, model.curves]}
 
 
-def runs(root):
-    client = mlflow.MlflowClient(f"sqlite:///{root / 'mlflow.db'}")
-    experiment = client.get_experiment_by_name("grasptypes")
-    found = client.search_runs([experiment.experiment_id])
-    return {run.data.tags[KEY_TAG]: run for run in found}
+@pytest.fixture(scope="module")
+def store(tmp_path_factory, model, data):
+    """A store with the runs in it; making its tables takes seconds, so it is made once."""
+    store = store_in(tmp_path_factory.mktemp("store"))
+    with pytest.MonkeyPatch.context() as patch:
+        patch.delenv(WEIGHTS_VARIABLE, raising=False)
+        keys = publish([model], SETTINGS, data, store)
+    assert keys == {"simulated no_task": run_record(model, SETTINGS, {}).key}
+    return store
 
 
-def test_every_run_names_commit_and_data(results):
-    publish(results)
-    found = runs(results)
-    assert len(found) == 3
-    for run in found.values():
-        tags = run.data.tags
-        assert tags["mlflow.source.git.commit"] == git(results, "rev-parse", "HEAD")
-        assert tags["git.dirty"] == "False"
-        for name in ("data/samples.csv", "data/folds.csv", "data/backbone.json"):
-            expected = hashlib.sha256((results / name).read_bytes()).hexdigest()
-            assert tags[f"sha256.{name}"] == expected
-        assert tags["sha256.data/features"] == checksum(results / "data/features")
-        assert "sha256.data/renders" not in tags  # not there
-
-
-def test_without_git_runs_name_no_commit(results, monkeypatch, tmp_path):
-    monkeypatch.setenv("PATH", str(tmp_path))
-    tags = version_tags(results)
-    assert "sha256.data/samples.csv" in tags
-    assert "mlflow.source.git.commit" not in tags
-
-
-def test_parameters_without_a_store_are_refused(results, tmp_path):
-    text = (results / "params.yaml").read_text()
-    (tmp_path / "params.yaml").write_text(text.replace("\ntracking:", "\ntrakcing:"))
-    with pytest.raises(InputError, match="trakcing"):
-        chosen_store(tmp_path)
-
-
-def test_folds_stand_one_level_below_their_model(results):
-    publish(results)
-    parents = [run.data.tags.get("mlflow.parentRunId") for run in runs(results).values()]
-    (top,) = [run for run in runs(results).values() if "mlflow.parentRunId" not in run.data.tags]
-    assert sorted(map(str, parents)) == sorted(["None", top.info.run_id, top.info.run_id])
-
-
-def test_again_adds_nothing_and_a_store_is_rebuilt_alike(results, tmp_path):
-    publish(results)
-    before = runs(results)
-    assert publish(results) == 0
-    assert {k: r.info.run_id for k, r in runs(results).items()} == {
-        k: r.info.run_id for k, r in before.items()
-    }
-    # In a copy, since this process keeps a deleted file open.
-    copy = tmp_path / "copy"
-    shutil.copytree(results, copy, ignore=shutil.ignore_patterns("mlflow.*", "mlruns"))
-    assert publish(copy) == 3
-    after = runs(copy)
-    assert {k: (r.data.params, r.data.metrics, r.info.start_time) for k, r in after.items()} == {
-        k: (r.data.params, r.data.metrics, r.info.start_time) for k, r in before.items()
+def shown(store):
+    """Key to what a run shows, and the store's own number of it."""
+    client = mlflow.MlflowClient(store.uri)
+    runs = client.search_runs([client.get_experiment_by_name(store.experiment).experiment_id])
+    keys = {run.info.run_id: run.data.tags[KEY_TAG] for run in runs}
+    return {
+        run.data.tags[KEY_TAG]: (
+            keys.get(run.data.tags.get("mlflow.parentRunId")),
+            run.data.params,
+            run.data.metrics,
+            (run.info.start_time, run.info.end_time, run.info.status),
+        )
+        for run in runs
     }
 
 
-def test_runs_show_what_they_were_trained_with_whatever_params_yaml_says_now(results):
-    publish(results)
-    before = (results / "params.yaml").read_text()
-    epochs = read_yaml(results / "params.yaml")["predictors"]["epochs"]
-    (results / "params.yaml").write_text(before.replace(f"  epochs: {epochs}\n", "  epochs: 1\n"))
-    try:
-        assert read_yaml(results / "params.yaml")["predictors"]["epochs"] == 1
-        assert publish(results) == 0
-    finally:
-        (results / "params.yaml").write_text(before)
-    assert {run.data.params["epochs"] for run in runs(results).values()} == {str(epochs)}
+def test_folds_stand_below_their_model_with_the_times_of_the_training(store, model):
+    record = run_record(model, SETTINGS, {})
+    runs = shown(store)
+    assert {key: run[0] for key, run in runs.items()} == {
+        record.key: None,
+        **{child.key: record.key for child in record.children},
+    }
+    assert {run[3] for run in runs.values()} == {(*TIMES_MS, "FINISHED")}
+    parent, child = runs[record.key], runs[record.children[1].key]
+    assert parent[2]["angular_similarity"] == pytest.approx(0.55)
+    assert parent[2]["angular_similarity_sd"] == pytest.approx(0.0707, abs=1e-4)
+    assert (child[1]["fold"], child[2]["angular_similarity"]) == ("1", 0.6)
+    assert (child[1]["finetuning.epochs"], child[2]["test_loss"]) == ("3", 3.0)
 
 
-def test_a_model_whose_settings_nobody_knows_is_left_out(results, caplog):
-    begun = results / record_path(CARD, UNFINISHED)
-    begun.parent.mkdir()
-    begun.touch()  # killed with the files written, and the record still that of older ones
-    assert finished_models(results) == []
-    assert "simulated/no_task is left out" in caplog.text
-    begun.unlink()
-    record = results / record_path(CARD)
-    content = record.read_text()
-    record.unlink()
-    assert finished_models(results) == []
-    record.write_text(content)
-    assert len(finished_models(results)) == 1
+def test_publishing_again_adds_nothing_and_a_new_store_shows_the_same(store, model, data, tmp_path):
+    before = shown(store)
+    publish([model], SETTINGS, data, store)
+    assert shown(store) == before
+    publish([model], SETTINGS, data, store_in(tmp_path))
+    assert shown(store_in(tmp_path)) == before
 
 
-def test_the_ui_opens_the_chosen_store_at_its_runs_even_if_nothing_can_be_published(
-    results, tmp_path, caplog
-):
-    link = ui.prepare(results, chosen_store(results), 5000)
-    identity = re.fullmatch(r"http://127\.0\.0\.1:5000/#/experiments/(\d+)/runs\?.+", link)[1]
-    assert {run.info.experiment_id for run in runs(results).values()} == {identity}
-    other = Store(tmp_path / "other.db", "other", 60)
-    assert "/#/experiments/1/runs?" in ui.prepare(tmp_path, other, 5000)
-    assert "no finished predictor" in caplog.text
-    damaged = Store(tmp_path / "damaged.db", "other", 60)
-    damaged.database.write_text("no database")
-    assert ui.prepare(results, damaged, 5000) == "http://127.0.0.1:5000/"
-    assert "damaged.db: cannot be written" in caplog.text
+def test_keys_are_made_from_content_alone(model, tmp_path):
+    record = run_record(model, SETTINGS, {"commit": "abc"})
+    assert len({record.key, *(child.key for child in record.children)}) == 3
+    assert run_record(model, SETTINGS, {"commit": "def"}).key == record.key
+    assert run_record(model, SETTINGS | {"seeds": 3}, {}).key != record.key
+    other = tmp_path / "metrics.csv"
+    other.write_text(model.metrics.read_text().replace("0.6", "0.7"))
+    assert run_record(replace(model, metrics=other), SETTINGS, {}).key != record.key
 
 
-def test_without_the_weights_the_runs_are_published_all_the_same(results, caplog):
-    with caplog.at_level(logging.WARNING):
-        publish(results)
-    assert "published without their predictors" in caplog.text
-    assert len(runs(results)) == 3
-
-
-def test_without_pictures_the_runs_are_published_all_the_same(results, caplog, monkeypatch):
-    monkeypatch.setattr("grasptypes.runs.publishing.recorded_weights", lambda record: record)
-    with caplog.at_level(logging.WARNING):
-        publish(results)
-    assert "holds no pictures" in caplog.text
-    assert len(runs(results)) == 3
-
-
-def test_the_checksum_of_a_folder_is_that_of_its_listing(results):
-    command = "cd data/features && sha256sum * | sha256sum"
-    shell = subprocess.run(
-        command, shell=True, cwd=results, capture_output=True, text=True, check=True
+def test_runs_name_the_commit_and_the_data(data, tmp_path, monkeypatch):
+    listing = "".join(
+        f"{hashlib.sha256(path.read_bytes()).hexdigest()}  {path.name}\n"
+        for path in sorted(data["tables"])
     )
-    assert checksum(results / "data/features") == shell.stdout.split()[0]
+    tags = version_tags(data)
+    assert tags["sha256.tables"] == hashlib.sha256(listing.encode()).hexdigest()
+    assert tags["sha256.backbone"] == checksum(data["backbone"])
+    assert len(tags["mlflow.source.git.commit"]) == 40
+    monkeypatch.setenv("PATH", str(tmp_path))  # no git
+    assert "mlflow.source.git.commit" not in version_tags(data)
 
 
-def test_a_store_that_cannot_be_written_costs_one_line(results, tmp_path):
-    """And says what to do later; the call itself may fail, since nothing waits for it."""
-    params = read_yaml(results / "params.yaml")
-    text = (results / "params.yaml").read_text()
-    blocked = tmp_path / "file"
-    blocked.write_text("no folder")
-    database = params["tracking"]["database"]
-    changed = text.replace(f"database: {database}", f"database: {blocked}/mlflow.db")
-    (results / "params.yaml").write_text(changed)
-    environment = {**os.environ, "PYTHONPATH": str(PROJECT / "src")}
-    environment.pop(WEIGHTS_VARIABLE, None)
-    command = [sys.executable, "-m", "grasptypes.runs.publishing"]
-    called = subprocess.run(command, cwd=results, env=environment, capture_output=True, text=True)
-    (results / "params.yaml").write_text(text)
-    assert called.returncode == 1
-    lines = [line for line in called.stderr.splitlines() if "predictors" not in line]
-    assert len(lines) == 1
-    assert lines[0].startswith(f"error: {blocked}/mlflow.db: cannot be written: ")
-    assert lines[0].endswith("show them later with: make publish")
+def test_an_interrupted_call_is_finished_without_doubling(store):
+    client = mlflow.MlflowClient(store.uri)
+    with store.opened() as opened:
+        run = client.create_run(opened.experiment, start_time=1000, tags={KEY_TAG: "key"})
+        opened._write(run.info.run_id, RUN, 1000)  # killed before it was marked as finished
+        assert opened.upsert(RUN) == run.info.run_id
+    history = client.get_metric_history(run.info.run_id, "loss")
+    assert [(metric.step, metric.value) for metric in history] == [(1, 3), (2, 2)]
+    client.delete_run(run.info.run_id)
+
+
+def test_an_experiment_that_was_deleted_in_the_ui_is_restored(store):
+    client = mlflow.MlflowClient(store.uri)
+    client.delete_experiment(client.get_experiment_by_name("test").experiment_id)
+    with store.opened() as opened:
+        assert client.get_experiment(opened.experiment).lifecycle_stage == "active"
+
+
+def test_the_ui_opens_on_this_machine_at_the_runs(store):
+    assert store.page().startswith("#/experiments/1/runs?")
+    assert "--host 127.0.0.1" in " ".join(ui.server(store, 5000))
+
+
+def test_two_processes_on_a_new_file(tmp_path):
+    code = (
+        "import sys; sys.path[:0] = sys.argv[2:]\n"
+        "from test_publishing import RUN, store_in\n"
+        "with store_in(sys.argv[1]).opened() as opened: opened.upsert(RUN)\n"
+    )
+    here = Path(__file__)
+    paths = [str(path) for path in (here.parent, here.parents[1], here.parents[3] / "src")]
+    command = [sys.executable, "-c", code, str(tmp_path), *paths]
+    processes = [subprocess.Popen(command, stderr=subprocess.PIPE) for _ in range(2)]
+    assert [(p.communicate()[1][-300:], p.returncode)[1] for p in processes] == [0, 0]
+    assert list(shown(store_in(tmp_path))) == ["key"]
+
+
+@contextlib.contextmanager
+def locked_by_a_writer(folder):
+    with contextlib.closing(sqlite3.connect(folder / "mlflow.db")) as connection:
+        connection.execute("BEGIN EXCLUSIVE")
+        yield
+
+
+@contextlib.contextmanager
+def read_only(folder):
+    """SQLite needs a journal to write; file modes would not stop an administrator."""
+    with contextlib.closing(sqlite3.connect(folder / "mlflow.db")) as database:
+        database.execute("CREATE TABLE a (b)")
+    (folder / "mlflow.db-journal").mkdir()
+    yield
+
+
+@contextlib.contextmanager
+def damaged(folder):
+    (folder / "mlflow.db").write_bytes(b"no database" * 100)
+    yield
+
+
+@contextlib.contextmanager
+def out_of_reach(folder):
+    folder.rmdir()
+    folder.write_text("where the store's folder would be")
+    yield
+
+
+@pytest.mark.parametrize(
+    ("spoilt", "reason"),
+    [
+        (lambda folder: FileLock(folder / "mlflow.lock"), "mlflow.lock"),
+        (locked_by_a_writer, "locked"),
+        (read_only, "disk I/O error|unable to open"),
+        (damaged, "not a database"),
+        (out_of_reach, "exists|directory"),
+    ],
+)
+def test_a_store_that_cannot_be_written_is_named_at_once(tmp_path, spoilt, reason):
+    folder = tmp_path / "store"
+    folder.mkdir()
+    begun = time.monotonic()
+    with (
+        spoilt(folder),
+        pytest.raises(InputError, match=rf"mlflow\.db: cannot be written: .*({reason})") as error,
+        store_in(folder, 0.2).opened(),
+    ):
+        pass
+    assert time.monotonic() - begun < 5
+    assert str(error.value).endswith("show them later with: make publish")
+    assert "\n" not in str(error.value)

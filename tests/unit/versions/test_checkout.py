@@ -1,3 +1,6 @@
+"""Copies of a checkout: its code with other parameters, and none of its results."""
+
+import os
 import subprocess
 from pathlib import Path
 
@@ -8,40 +11,35 @@ from grasptypes.errors import InputError
 from grasptypes.versions.checkout import copy_checkout
 
 
-@pytest.fixture
-def source(tmp_path: Path) -> Path:
-    root = tmp_path / "source"
-    (root / "data").mkdir(parents=True)
-    (root / "params.yaml").write_text("seed: 0\nobjects: {scale: 1.15, names: [mug, pan]}\n")
-    (root / "Snakefile").write_text("# rules\n")
-    (root / "data" / "grasps.csv").write_text("Index\n")
-    subprocess.run(["git", "init", "-q", root], check=True)
-    return root
-
-
-def test_copy_has_the_code_and_the_changed_params_but_no_results(
-    source: Path, tmp_path: Path
+def test_a_copy_has_the_code_and_the_changed_params_and_keeps_its_own_results(
+    tmp_path: Path,
 ) -> None:
-    changes = tmp_path / "small.yaml"
-    changes.write_text("objects: {names: [mug]}\n")
-    copy_checkout(source, tmp_path / "copy", changes)
-    assert (tmp_path / "copy" / "Snakefile").read_text() == "# rules\n"
-    assert not (tmp_path / "copy" / "data").exists()
-    params = yaml.safe_load((tmp_path / "copy" / "params.yaml").read_text())
+    source, target, changes = (tmp_path / name for name in ("source", "copy", "changes.yaml"))
+    for path, text in {
+        source / "params.yaml": "seed: 0\nobjects: {scale: 1.15, names: [mug, pan]}\n",
+        source / "Snakefile": "# rules\n",
+        source / ".gitignore": "/data/\n",
+        source / "data/grasps.csv": "Index\n",
+        target / "data/old.npz": "old",
+        changes: "objects: {names: [mug]}\n",
+    }.items():
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text)
+    subprocess.run(["git", "init", "-q", source], check=True)
+    copy_checkout(source, target, changes)
+    assert (target / "Snakefile").read_text() == "# rules\n"
+    assert [path.name for path in (target / "data").iterdir()] == ["old.npz"]
+    params = yaml.safe_load((target / "params.yaml").read_text())
     assert params == {"seed": 0, "objects": {"scale": 1.15, "names": ["mug"]}}
 
 
-def test_results_in_the_target_stay(source: Path, tmp_path: Path) -> None:
-    changes = tmp_path / "small.yaml"
-    changes.write_text("seed: 1\n")
-    (tmp_path / "copy" / "data").mkdir(parents=True)
-    (tmp_path / "copy" / "data" / "old.npz").write_bytes(b"old")
-    copy_checkout(source, tmp_path / "copy", changes)
-    assert (tmp_path / "copy" / "data" / "old.npz").read_bytes() == b"old"
-
-
-def test_a_folder_that_is_no_checkout_is_named(tmp_path: Path) -> None:
-    changes = tmp_path / "small.yaml"
-    changes.write_text("seed: 1\n")
-    with pytest.raises(InputError, match="not a git checkout"):
-        copy_checkout(tmp_path, tmp_path / "copy", changes)
+def test_what_git_refuses_is_said_in_its_words(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    git = tmp_path / "bin" / "git"
+    git.parent.mkdir()
+    git.write_text("#!/bin/sh\necho 'fatal: detected dubious ownership' >&2\nexit 128\n")
+    git.chmod(0o755)
+    monkeypatch.setenv("PATH", os.pathsep.join([str(git.parent), os.environ["PATH"]]))
+    with pytest.raises(InputError, match="fatal: detected dubious ownership"):
+        copy_checkout(tmp_path, tmp_path / "copy", tmp_path / "changes.yaml")

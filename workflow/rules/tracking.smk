@@ -1,0 +1,24 @@
+# The runs in MLflow, a view of the models that can be made anew at any time: make ui
+
+
+rule publish_runs:
+    input:
+        metrics=expand(rules.train_predictor.output.metrics, labels=LABELS, model=MODELS),
+        curves=expand(rules.train_predictor.output.curves, labels=LABELS, model=MODELS),
+        tensors=expand(rules.train_predictor.output.tensors, labels=LABELS, model=MODELS),
+        cards=expand(rules.train_predictor.output.card, labels=LABELS, model=MODELS),
+        samples=[SAMPLES[labels] for labels in LABELS],
+        folds=rules.split_folds.output.folds,
+        backbone=rules.prepare_backbone.output.record,
+        renders=expand(rules.render_object.output.pictures, object=OBJECTS),
+        features=expand(rules.extract_features.output.features, object=OBJECTS),
+    output:
+        runs="reports/runs.json",
+    params:
+        tracking=settings("tracking"),
+        predictors=settings("predictors"),
+        code=script_hash("publish_runs"),
+    message:
+        "Showing the models in MLflow"
+    script:
+        "../scripts/publish_runs.py"

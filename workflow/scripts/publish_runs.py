@@ -1,0 +1,23 @@
+"""Show the trained models in MLflow, and note which runs it shows."""
+
+from pathlib import Path
+
+from grasptypes.files import write_json
+from grasptypes.jobs import job
+from grasptypes.runs.publishing import publish
+from grasptypes.runs.run_records import TrainedModel
+from grasptypes.runs.tracking import Store
+from grasptypes.settings.commands import TrackingSettings
+from grasptypes.versions.provenance import times_ms
+
+if __name__ == "__main__":
+    with job(snakemake.log):
+        inputs = {
+            name: [Path(file) for file in ([files] if isinstance(files, str) else files)]
+            for name, files in snakemake.input.items()
+        }
+        files = [inputs.pop(name) for name in ("metrics", "curves", "tensors", "cards")]
+        models = [TrainedModel(*parts, times_ms(parts[-1])) for parts in zip(*files, strict=True)]
+        store = Store(TrackingSettings.model_validate(snakemake.params.tracking))
+        keys = publish(models, snakemake.params.predictors, inputs, store)
+        write_json(snakemake.output.runs, keys)
