@@ -1,13 +1,10 @@
-"""Nothing a user hands in is run as code, and nothing listens to the network unasked."""
+"""Nothing a user hands in is run as code."""
 
 import ast
 from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-
-from grasptypes.runs.tracking import Store
-from grasptypes.runs.ui import server
 
 ROOT = Path(__file__).parents[2]
 SOURCES = sorted(path for folder in ("src", "workflow") for path in (ROOT / folder).rglob("*.py"))
@@ -50,12 +47,3 @@ def test_no_call_runs_what_a_file_holds(path):
 )  # fmt: skip
 def test_the_check_finds_what_it_looks_for(line):
     assert list(risks(ast.parse(line)))
-
-
-def test_the_server_listens_on_this_machine_alone(tmp_path):
-    command = " ".join(server(Store(tmp_path / "mlflow.db", "test", 1), 5000))
-    assert "mlflow ui" in command
-    assert "--host 127.0.0.1" in command
-    makefile = (ROOT / "Makefile").read_text(encoding="utf-8")
-    assert "mlflow ui" not in makefile
-    assert "0.0.0.0" not in makefile

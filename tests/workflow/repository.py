@@ -42,6 +42,13 @@ class Repository:
         shutil.copytree(self.path, path, symlinks=True)
         return Repository(path)
 
+    def lose(self, *names: str) -> Repository:
+        """Remove results, which a run then has to make again; names may hold wildcards."""
+        for name in names:
+            for path in self.path.glob(name):
+                shutil.rmtree(path) if path.is_dir() else path.unlink()
+        return self
+
     def run(self, *command: str, check: bool = True, **environment: str) -> str:
         """Run a command and return what it printed; a failure shows it all."""
         result = subprocess.run(

@@ -1,38 +1,67 @@
 """Snakemake and DVC agree on what is stale, whoever is asked and wherever the files come from."""
 
+import os
 import re
 import shutil
+import signal
+import subprocess
+import time
 from pathlib import Path
 
 import pytest
-from repository import TARGET, Repository
+from repository import TARGET, Repository, jobs
+from verify import RESULTS, checksums
 
 
-def test_a_clone_that_pulls_has_nothing_to_do(changed: Repository, tmp_path: Path) -> None:
+def test_both_tools_have_nothing_to_do_and_git_sees_no_results(complete: Repository) -> None:
+    assert complete.is_clean()
+    assert jobs(complete.dvc("repro")) == {}
+    assert complete.git("status", "--porcelain") == ""
+
+
+def test_a_clone_that_pulls_has_nothing_to_do_and_notices_changes(
+    changed: Repository, tmp_path: Path
+) -> None:
     changed.dvc("remote", "add", "-d", "store", str(tmp_path / "store"))
     changed.commit("Remote")
     changed.dvc("push")
     changed.git("clone", "-q", ".", str(tmp_path / "clone"))
     clone = Repository(tmp_path / "clone")
+    assert clone.planned(TARGET) == changed.copy(tmp_path / "none").lose(*RESULTS).planned(TARGET)
     clone.dvc("pull")
-    assert clone.snakemake_is_clean("all")
-    assert clone.dvc_is_clean()
-    part = clone.path / "data/renders"
-    shutil.rmtree(part)
+    assert clone.is_clean()
+    assert jobs(clone.dvc("repro")) == {}
+    assert clone.git("status", "--porcelain") == ""
+    assert checksums(clone.path) == checksums(changed.path)
+    shutil.rmtree(clone.path / "data/renders")
     assert clone.snakemake_is_clean()
+    clone.set_param("predictors.epochs", 7)
+    planned = clone.planned()
+    assert planned["train_predictor"] == 4
+    assert planned["extract_features"] == 0
 
 
-def test_a_clone_that_does_not_pull_computes_what_git_holds_tables_of(
-    fresh: Repository, changed: Repository, tmp_path: Path
-) -> None:
-    changed.git("clone", "-q", ".", str(tmp_path / "clone"))
-    clone = Repository(tmp_path / "clone")
-    assert (clone.path / "reports/table1.csv").exists()
-    assert clone.planned(TARGET) == fresh.planned(TARGET)
-    clone.snakemake("data/folds.csv")
-    planned = clone.planned(TARGET)
-    assert planned["train_predictor"] == fresh.planned(TARGET)["train_predictor"]
-    assert planned["split_folds"] == planned["render_object"] == 0
+def test_versions_come_and_go_with_git_and_metrics_are_compared(changed: Repository) -> None:
+    changed.set_param("predictors.epochs", 7)
+    assert jobs(changed.dvc("repro"))["train_predictor"] == 8
+    assert changed.snakemake_is_clean("all")
+    changed.commit("Longer")
+    compared = changed.dvc("metrics", "diff", "HEAD~1", "HEAD")
+    assert "reports/scores/simulated/task_vector.json" in compared
+    for version in ("HEAD~1", "main"):
+        changed.git("checkout", "-q", version)
+        changed.dvc("checkout")
+        assert changed.is_clean()
+    changed.set_param("renders.sheet.views", 2)
+    assert changed.planned("all") == {"plot_renders": 1, "all": 1}
+
+
+def test_an_experiment_elsewhere_makes_only_what_it_changes(changed: Repository) -> None:
+    before = (changed.path / "dvc.lock").read_bytes()
+    output = changed.dvc("exp", "run", "--temp", "-n", "tall", "-S", "renders.sheet.views=3")
+    assert jobs(output).keys() - {"all", "results"} == {"plot_renders"}
+    assert (changed.path / "dvc.lock").read_bytes() == before
+    assert changed.is_clean()
 
 
 @pytest.mark.parametrize(
@@ -62,6 +91,7 @@ def test_a_changed_module_reruns_what_imports_it_and_a_comment_nothing(
     module.write_text(text + "\n# A remark.\n")
     assert changed.snakemake_is_clean("all")
     module.write_text(text + "\nUNUSED = 1\n")
+    os.utime(module, (0, 0))  # an old file in its place, as unzip leaves it
     planned = changed.planned("all")
     assert planned["label_grasps"] == 1
     assert planned["render_object"] == planned["prepare_object"] == 0
@@ -70,31 +100,18 @@ def test_a_changed_module_reruns_what_imports_it_and_a_comment_nothing(
 
 def test_touching_every_file_changes_nothing(changed: Repository) -> None:
     changed.run("bash", "-c", "find data reports models src workflow -type f | xargs touch")
-    assert changed.snakemake_is_clean("all")
-    assert changed.dvc_is_clean()
+    assert changed.is_clean()
 
 
-def test_a_removed_object_leaves_nothing_behind(changed: Repository) -> None:
+def test_a_removed_object_is_listed(changed: Repository) -> None:
     changed.set_param("objects.names", ["banana"])
     planned = changed.planned("data/samples.csv")
     assert planned["label_grasps"] == 1
     assert planned["prepare_object"] == planned["synthesize_grasps"] == 0
-    changed.run("python", "-m", "grasptypes.versions.prune", PYTHONPATH=str(changed.path / "src"))
-    left = [path for path in changed.path.glob("data/**/*mug*")]
-    assert left == []
-
-
-def test_a_hand_edited_result_is_found_with_its_cure(changed: Repository) -> None:
-    edited = "data/grasps/mug/use.parquet"
-    (changed.path / edited).write_bytes(
-        (changed.path / "data/grasps/mug/handoff.parquet").read_bytes()
-    )
-    doctor = ("python", "-m", "grasptypes.versions.doctor")
-    source = str(changed.path / "src")
-    found = changed.run(*doctor, check=False, PYTHONPATH=source)
-    assert f"dvc checkout --force {edited}" in found
-    changed.dvc("checkout", "--force", edited)
-    assert "nothing is wrong" in changed.run(*doctor, PYTHONPATH=source)
+    listed = changed.run("snakemake", "all", "--list-untracked").splitlines()
+    left = [name for name in listed if name.startswith(("data/", "models/", "reports/"))]
+    assert left
+    assert all("mug" in name or name == "data/provenance.json" for name in left), left
 
 
 def test_dvc_shows_scores_stages_and_pictures_offline(changed: Repository) -> None:
@@ -111,3 +128,35 @@ def test_dvc_shows_scores_stages_and_pictures_offline(changed: Repository) -> No
     pictures = re.findall(r'<img src="([^"]+)"', text)
     assert len(pictures) > 5
     assert all((page.parent / picture).is_file() for picture in pictures)
+
+
+@pytest.mark.parametrize("command", [("snakemake", "-j2"), ("dvc", "repro")], ids=" ".join)
+def test_a_second_run_is_refused_and_a_killed_one_goes_on(
+    changed: Repository, complete: Repository, command: tuple[str, ...]
+) -> None:
+    changed.lose("models", "data/grasps/mug")
+    log = changed.path.parent / "run.log"
+    with log.open("w") as output:
+        first = subprocess.Popen(
+            command,
+            cwd=changed.path,
+            env=changed.environment(),
+            stdout=output,
+            stderr=output,
+            start_new_session=True,
+        )
+    try:
+        while "Training" not in log.read_text():
+            assert first.poll() is None, log.read_text()
+            time.sleep(0.1)
+        said = changed.run("snakemake", "-j2", check=False)
+        assert re.search(r"another run holds this folder: process \d+", said)
+        assert "Execute" not in said
+        assert "Job stats" in changed.run("snakemake", "-n")  # a dry run reads along
+    finally:
+        os.killpg(first.pid, signal.SIGKILL)
+        first.wait()
+    changed.run(*command)
+    assert checksums(changed.path) == checksums(complete.path)
+    changed.dvc("repro")
+    assert changed.is_clean()

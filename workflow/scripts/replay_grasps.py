@@ -28,8 +28,8 @@ def replay_grasps(
         )
     meshes = {path.stem: path for path in scans}
     grasps = read_published(published)
-    if not grasps.object.isin(list(meshes)).any():
-        raise InputError(published, "", "has no grasp of an object that has a scan")
+    if not (grasps.object.isin(list(meshes)) & grasps.hand_configuration.notna()).any():
+        raise InputError(published, "", "has no configuration for an object with a scan")
     table = replay(grasps, meshes, settings)
     write_table(table, target, REPLAY_SCHEMA)
     return f"replayed {table['n'].sum()} poses on {len(table)} scans"

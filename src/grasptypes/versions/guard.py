@@ -1,4 +1,4 @@
-"""Start-up checks: a run is alone in its folder, nothing lies there half written, DVC's cache is safe."""
+"""Start-up checks: one run a folder, nothing half written in it, and no cache of links."""
 
 from __future__ import annotations
 

@@ -1,0 +1,47 @@
+"""What README and docs quote is what docs/results holds, and git holds no other results."""
+
+import re
+import subprocess
+from pathlib import Path
+
+import pandas as pd
+import pytest
+
+ROOT = Path(__file__).parents[2]
+RESULTS = ROOT / "docs/results"
+PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
+LABELS = {"simulated": "table1.csv", "published": "table1_published.csv"}
+
+
+def test_the_readmes_table_is_that_of_the_results() -> None:
+    rows = re.findall(r"^\| ([a-z* ]+) \| (.+) \| (.+) \| (.*) \|$", PAGES[0].read_text(), re.M)
+    shown = {name.strip("*"): cells for name, *cells in rows if "/" in cells[0]}
+    measures = ("sim_mean", "acc_mean", "prec_mean")
+    names = {
+        "no_task": "without task",
+        "task_vector": "task as a vector",
+        "task_in_image": "task in the image",
+        "ignores_task": "task ignored",
+    }
+    for column, file in enumerate(LABELS.values()):
+        table = pd.read_csv(RESULTS / file).set_index("model")
+        for model, name in names.items():
+            row = table.loc[model]
+            assert shown[name][column] == " / ".join(f"{row[key]:.3f}" for key in measures)
+            paper = " / ".join(f"{row['paper_' + key.split('_')[0]]:.2f}" for key in measures)
+            assert shown[name][2] == paper
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
+def test_every_link_leads_somewhere(page: Path) -> None:
+    links = re.findall(r"\]\(([^)#:]+)[)#]", page.read_text())
+    missing = [link for link in links if not (page.parent / link).exists()]
+    assert not missing
+
+
+def test_results_are_quoted_and_the_others_are_not_in_git() -> None:
+    quoted = "".join(page.read_text() for page in PAGES)
+    assert [path.name for path in RESULTS.iterdir() if path.stem not in quoted] == []
+    command = ["git", "ls-files", "data", "models", "reports"]
+    tracked = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=True)
+    assert tracked.stdout == ""
