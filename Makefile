@@ -7,24 +7,22 @@ PYTHON ?= python3
 VENV ?= .venv
 JOBS ?= 2
 UI_PORT ?= 5057
-KILLS ?= 20
 VERIFY ?=
-BIN := $(abspath $(VENV))/bin
-export PATH := $(BIN):$(PATH)
+# `value`, since a path may hold a dollar sign.
+export SETUP_PYTHON := $(value PYTHON)
+export SETUP_VENV := $(if $(filter /%,$(value VENV)),,$(CURDIR)/)$(value VENV)
+export PATH := $(SETUP_VENV)/bin:$(value PATH)
 export DVC_NO_ANALYTICS := 1
 export MLFLOW_DISABLE_TELEMETRY := true
 
-.PHONY: help setup table1 demo test test-slurm acceptance bad-input test-faults verify coverage mutation bench lint format \
+.PHONY: help setup table1 demo test test-slurm test-workflow bad-input verify coverage mutation bench lint format \
     publish ui report results clean lock
 
 help: ## list the targets
 	@awk -F ':.*## ' '/^[a-z0-9-]+:.*## / {printf "  make %-12s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
 
-setup: $(VENV)/.ready ## virtual environment from the lock file, and the off-screen GL library
-
-$(VENV)/.ready: requirements.lock pyproject.toml
-	@workflow/envs/set_up.sh "$(PYTHON)" "$(VENV)"
-	@touch $@
+setup: ## virtual environment from the lock file, and the off-screen GL library
+	@workflow/envs/set_up.sh
 
 table1: setup ## the main job: from parameters to Table I
 	snakemake -j$(JOBS) reports/table1.csv
@@ -46,19 +44,14 @@ scaling: setup ## time and memory against the number of objects: reports/scaling
 test: setup ## the default tests
 	pytest -n $(JOBS)
 
-acceptance: setup ## that Snakemake and DVC agree whatever happens, on 2 objects; about a quarter of an hour
-	pytest tests/acceptance -m slow
+test-workflow: setup ## all that docs/versions.md and docs/reliability.md say, on 2 objects; about half an hour
+	pytest tests/workflow -m "slow or not slow"
 
 test-slurm: setup ## the small configuration on a Slurm cluster of this machine (slurm-wlm and munge)
 	pytest tests/slurm
 
 bad-input: setup ## try every mistake a user can make and write docs/bad_input.md
 	python -W ignore tests/bad_input/table.py
-
-test-faults: setup ## kill KILLS runs at random moments, then full disks, missing libraries and the like
-	rm -rf build/faults
-	python tests/workflow/kill_runs.py build/faults --runs $(KILLS)
-	pytest -m slow tests/workflow/test_faults.py
 
 verify: setup ## compute everything twice from nothing, -j1 and -j2, and compare every file; VERIFY="--params tests/small.yaml"
 	rm -rf build/verify

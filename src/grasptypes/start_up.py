@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from pathlib import Path
 
 from grasptypes.contact_maps.affinities import Hold, read_affinities
+from grasptypes.errors import InputError
 from grasptypes.labels.published_source import check_published
 from grasptypes.objects.own_objects import check_every_hold, check_own_objects
 from grasptypes.objects.reference_meshes import reference_meshes
@@ -30,6 +31,8 @@ def check_start(
     Raises:
         InputError: the first mistake.
     """
+    if set(str(root)) & set("{}"):
+        raise InputError(root, "", "Snakemake takes braces for wildcards; move the checkout")
     check_cache_links(root)
     objects, tasks, table = params.objects, list(params.tasks), params.contact_maps.affinities
     check_own_objects(objects)

@@ -1,12 +1,27 @@
 #!/usr/bin/env bash
-# Sets up a virtual environment from the lock file and the off-screen GL library. What cannot be
-# installed ends with one line: what is missing, and the command that gets it.
+# Sets up the virtual environment $SETUP_VENV from the lock file with $SETUP_PYTHON, and the off-screen
+# GL library. What cannot be done ends with one line: what is missing, and the command that gets it.
 set -euo pipefail
 
-python=$1
-venv=$2
-here=$(cd "$(dirname "$0")" && pwd)
-root=$(cd "$here/../.." && pwd)
+python=$SETUP_PYTHON
+venv=$SETUP_VENV
+cd "$(dirname "$0")/../.."
+ready=$venv/.ready
+[ "$ready" -nt requirements.lock ] && [ "$ready" -nt pyproject.toml ] && exit 0
+
+case $PWD in
+    *[{}]*)
+        echo "error: Snakemake cannot work in '$PWD': it takes braces for wildcards" >&2
+        exit 1
+        ;;
+esac
+case $venv in
+    *:* | *[[:space:]]*[\"\$\`\\]* | *[\"\$\`\\]*[[:space:]]* | *[$'\t\n']*)
+        echo "error: no virtual environment can lie in '$venv': its programs would not start;" \
+            "name another place with: make setup VENV=/some/folder" >&2
+        exit 1
+        ;;
+esac
 
 missing() {
     echo "missing: $1; get it with: $2" >&2
@@ -24,7 +39,7 @@ can_load() {
 }
 
 if ! can_load libOSMesa.so.8 && ! can_load libOSMesa.so.6 && ! can_load libEGL.so.1; then
-    packages=$(grep -v '^#' "$here/apt.txt" | tr '\n' ' ')
+    packages=$(grep -v '^#' workflow/envs/apt.txt | tr '\n' ' ')
     as_root=""
     [ "$(id -u)" = 0 ] || as_root="sudo -n"
     command -v apt-get >/dev/null || missing "OSMesa or EGL, the off-screen GL library" \
@@ -36,6 +51,7 @@ fi
 
 [ -x "$venv/bin/python" ] || "$python" -m venv "$venv"
 echo "installing the locked packages into $venv (a few minutes the first time)"
-"$venv/bin/pip" install -qq --disable-pip-version-check -r "$root/requirements.lock" ||
+"$venv/bin/pip" install -qq --disable-pip-version-check -r requirements.lock ||
     missing "a package of requirements.lock" "a connection to the package index, then make setup again"
-"$venv/bin/pip" install -qq --disable-pip-version-check --no-deps --no-build-isolation -e "$root"
+"$venv/bin/pip" install -qq --disable-pip-version-check --no-deps --no-build-isolation -e .
+touch "$ready"
