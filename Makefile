@@ -28,7 +28,7 @@ table1: setup ## the main job: from parameters to Table I
 	snakemake -j$(JOBS) reports/table1.csv
 
 demo: setup ## the whole pipeline on 2 objects, in build/demo
-	python -m grasptypes.versions.checkout . build/demo --params tests/small.yaml
+	python -m grasptypes.versions.checkout . build/demo tests/small.yaml
 	cd build/demo && snakemake -j$(JOBS) reports/table1.csv && cat reports/table1.md
 
 .PHONY: generalisation scaling test-own
@@ -77,7 +77,7 @@ publish: setup ## show the trained models in MLflow again; adds nothing that is 
 
 ui: setup ## publish, then the MLflow UI on 127.0.0.1, few processes
 	-snakemake -j$(JOBS) publish_runs --force
-	@python -m grasptypes.runs.ui --port $(UI_PORT)
+	@python -m grasptypes.runs.ui $(UI_PORT)
 
 report: setup ## the results with captions as one HTML page that opens offline: build/report.html
 	@mkdir -p build

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import pickle
-import sys
 from collections.abc import Callable
 from pathlib import Path
 
@@ -15,8 +14,7 @@ from weights_cases import Code
 from grasptypes.exchange.dexgraspbench import read_grasp
 from grasptypes.exchange.graspit_world import read_world
 from grasptypes.exchange.multigrippergrasp import read_grasps
-from grasptypes.runs import publishing
-from grasptypes.versions import checkout, prune
+from grasptypes.versions.checkout import copy_checkout
 
 FOLDER = {"params.yaml": (ROOT / "params.yaml").read_bytes()}
 ASK = ("predict", "--image", "cup.png", "--task", "use")
@@ -27,19 +25,6 @@ def asked(what: str, arguments: tuple[str, ...], *names: str, **models: Content)
     """A call of `grasptypes predict` with a good picture."""
     files = FOLDER | {"cup.png": WHOLE} | {f"{MODEL}/predictor.{k}": v for k, v in models.items()}
     return Case("command", what, files, command(*arguments), names)
-
-
-def module(main: Callable[[], None], *arguments: str) -> Callable[[], None]:
-    """`python -m ...`."""
-
-    def call() -> None:
-        before, sys.argv = sys.argv, ["python -m", *arguments]
-        try:
-            main()
-        finally:
-            sys.argv = before
-
-    return call
 
 
 def exchanged(what: str, name: str, content: Content, read: Callable, *names: str) -> Case:
@@ -94,22 +79,8 @@ CASES = [
         "command",
         "changes that are no YAML",
         {"small.yaml": "seed: [1\n"},
-        module(checkout.main, str(ROOT), "copy", "--params", "small.yaml"),
+        library(lambda changes: copy_checkout(ROOT, "copy", changes), "small.yaml"),
         ("small.yaml", "line 2"),
-    ),
-    Case(
-        "command",
-        "pruning after damaged parameters",
-        {"params.yaml": "seed: [1\n"},
-        module(prune.main),
-        ("params.yaml", "line 2"),
-    ),
-    Case(
-        "command",
-        "publishing before anything is trained",
-        FOLDER,
-        module(publishing.main),
-        ("models", "no finished predictor"),
     ),
     exchanged("no XML", "world.xml", "<world>", read_world, "no GraspIt! world"),
     exchanged("a world without a hand", "world.xml", "<world/>", read_world, "one Barrett robot"),

@@ -42,13 +42,11 @@ def publish(
     Raises:
         InputError: the store cannot be written.
     """
-    tags = version_tags(data)
-    weights = None
+    tags, keys, weights = version_tags(data), {}, None
     try:
         weights = recorded_weights(read_backbone_record(data["backbone"][0]))
     except InputError as error:
         logger.warning("runs are published without their predictors: %s", error)
-    keys = {}
     for model in models:
         record = run_record(model, settings, tags)
         with store.opened() as opened:
@@ -62,21 +60,16 @@ def publish(
 
 
 def version_tags(data: Mapping[str, Sequence[Path]]) -> dict[str, str]:
-    """Checksums of the data, the commit, and whether the checkout differs from it."""
-    tags = {f"sha256.{name}": checksum(paths) for name, paths in data.items()}
+    """Of the data what ``sha256sum`` gives for its listing, the commit, and whether it is dirty."""
+    tags = {}
+    for name, paths in data.items():
+        listing = "".join(f"{file_sha256(path)}  {path.name}\n" for path in sorted(paths))
+        tags[f"sha256.{name}"] = hashlib.sha256(listing.encode()).hexdigest()
     commit = _git("rev-parse", "HEAD")
     if commit:
         tags["mlflow.source.git.commit"] = commit
         tags["git.dirty"] = str(bool(_git("status", "--porcelain", "--untracked-files=no")))
     return tags
-
-
-def checksum(paths: Sequence[Path]) -> str:
-    """SHA-256 of one file, or of what ``sha256sum`` prints for several in one folder."""
-    if len(paths) == 1:
-        return file_sha256(paths[0])
-    lines = [f"{file_sha256(path)}  {path.name}\n" for path in sorted(paths)]
-    return hashlib.sha256("".join(lines).encode()).hexdigest()
 
 
 def _git(*arguments: str) -> str:

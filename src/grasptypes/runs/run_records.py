@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 import json
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -17,19 +17,19 @@ from grasptypes.tables import read_table
 
 
 @dataclass(frozen=True)
-class RunRecord:
-    """What a run shows.
+class TrainedModel:
+    """The files of one training job, and when it began and ended (milliseconds since 1970)."""
 
-    Attributes:
-        key: made from the run's content; a run with this key is updated, not added.
-        name: shown in the UI.
-        times_ms: when it began and ended, milliseconds since 1970.
-        params: name to value.
-        metrics: name to one value.
-        curves: name to a value an epoch, first epoch 1.
-        tags: name to value.
-        children: runs folded under this one; one level only.
-    """
+    metrics: Path
+    curves: Path
+    tensors: Path
+    card: Path
+    times_ms: tuple[int, int]
+
+
+@dataclass(frozen=True)
+class RunRecord:
+    """What a run shows. A run with the same key, which is made from its content, is updated."""
 
     key: str
     name: str
@@ -37,27 +37,9 @@ class RunRecord:
     params: Mapping[str, str]
     metrics: Mapping[str, float]
     curves: Mapping[str, Sequence[float]]
+    """A value an epoch, the first epoch is 1."""
     tags: Mapping[str, str]
-    children: Sequence[RunRecord] = field(default=())
-
-
-@dataclass(frozen=True)
-class TrainedModel:
-    """What one training job wrote.
-
-    Attributes:
-        metrics: its table of metrics, one row a fold and seed.
-        curves: its loss curves.
-        tensors: the final predictor.
-        card: its card.
-        times_ms: when the job began and ended, milliseconds since 1970.
-    """
-
-    metrics: Path
-    curves: Path
-    tensors: Path
-    card: Path
-    times_ms: tuple[int, int]
+    children: Sequence[RunRecord] = ()
 
 
 def run_record(
@@ -89,16 +71,16 @@ def run_record(
             times_ms=model.times_ms,
             params={**params, "fold": fold, "seed_number": seed},
             metrics={name: float(row[name]) for name in METRICS},
-            curves=_curves(own),
+            curves=_losses(own),
             tags=tags,
         )
         children.append(child)
     # Named as the folds' own, so that the UI shows both in one column.
     summary = {name: float(metrics[name].mean()) for name in METRICS}
     summary |= {f"{name}_sd": float(metrics[name].std()) for name in METRICS}
-    mean = curves.groupby("epoch", as_index=False).mean(numeric_only=True)
+    losses = _losses(curves.groupby("epoch").mean(numeric_only=True))
     name = f"{first['labels']} {first['model']}"
-    return RunRecord(key, name, model.times_ms, params, summary, _curves(mean), tags, children)
+    return RunRecord(key, name, model.times_ms, params, summary, losses, tags, children)
 
 
 def flatten(nested: Mapping[str, Any], prefix: str = "") -> dict[str, str]:
@@ -110,12 +92,11 @@ def flatten(nested: Mapping[str, Any], prefix: str = "") -> dict[str, str]:
     return flat
 
 
-def _curves(table: pd.DataFrame) -> dict[str, list[float]]:
+def _losses(table: pd.DataFrame) -> dict[str, list[float]]:
     return {name: table[name].tolist() for name in ("train_loss", "test_loss")}
 
 
 def _digest(*parts: bytes) -> str:
-    digest = hashlib.sha256()
-    for part in parts:
-        digest.update(hashlib.sha256(part).digest())
-    return digest.hexdigest()[:32]
+    return hashlib.sha256(b"".join(hashlib.sha256(part).digest() for part in parts)).hexdigest()[
+        :32
+    ]

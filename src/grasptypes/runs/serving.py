@@ -7,12 +7,12 @@ from typing import Any
 
 import mlflow
 import numpy as np
+import scipy.special
 from mlflow.exceptions import MlflowException
 from mlflow.protos.databricks_pb2 import INVALID_PARAMETER_VALUE
 from mlflow.pyfunc import PythonModel, PythonModelContext
 
 from grasptypes.errors import InputError
-from grasptypes.predictors.metrics import softmax
 from grasptypes.predictors.predictor_files import load_predictor, read_card
 from grasptypes.predictors.weights import weights_file
 from grasptypes.renders.photos import padded
@@ -50,11 +50,11 @@ class GraspTypePredictor(PythonModel):
                 small or have values from 0 to 1.
         """
         pictures = np.asarray(model_input["image"], dtype=np.uint8)
-        asked = np.asarray(model_input["task"]).astype(str).reshape(-1)
+        tasks = np.asarray(model_input["task"]).astype(str).reshape(-1)
         outputs = len(self._predictor.card.types)
         logits = np.zeros((len(pictures), outputs), dtype=np.float32)
-        if len(asked) != len(pictures):
-            raise _refusal(f"{len(pictures)} images, but {len(asked)} tasks: one each is needed")
+        if len(tasks) != len(pictures):
+            raise _refusal(f"{len(pictures)} images, but {len(tasks)} tasks: one each is needed")
         if pictures.ndim != 4 or min(pictures.shape) == 0:
             raise _refusal(f"image has shape {pictures.shape} instead of (N, height, width, 3)")
         if min(pictures.shape[1:3]) < MIN_PX:
@@ -64,16 +64,13 @@ class GraspTypePredictor(PythonModel):
         if pictures.max(axis=(1, 2, 3)).min() <= 1:
             raise _refusal("image has no value above 1: values from 0 to 255 are needed")
         pictures = np.stack([padded(picture) for picture in pictures])
-        for task in sorted(set(asked)):
+        for task in sorted(set(tasks)):
             try:
-                logits[asked == task] = self._predictor.logits(pictures[asked == task], task)
+                logits[tasks == task] = self._predictor.logits(pictures[tasks == task], task)
             except InputError as error:
                 raise _refusal(str(error)) from error
-        sigmoid = 1 / (1 + np.exp(-logits))
-        return {
-            "probability": softmax(logits).astype(np.float32),
-            "sigmoid": sigmoid.astype(np.float32),
-        }
+        probability = scipy.special.softmax(logits, axis=1)
+        return {"probability": probability, "sigmoid": scipy.special.expit(logits)}
 
 
 def _refusal(message: str) -> MlflowException:

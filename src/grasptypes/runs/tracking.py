@@ -38,17 +38,15 @@ VIEW_TAG = f"mlflow.sharedViewState.{VIEW}"
 # Copied into every model, with the versions of what it imports.
 PACKAGE = Path(grasptypes.errors.__file__).parent
 SERVING_PACKAGES = (
-    "efficientnet-lite-pytorch",
-    "mlflow",
-    "numpy",
-    "pandas",
-    "pandera",
-    "pillow",
-    "pyarrow",
-    "pydantic",
-    "safetensors",
-    "torch",
-    "torchvision",
+    *("efficientnet-lite-pytorch", "mlflow", "numpy", "pandas", "pandera", "pillow", "pyarrow"),
+    *("pydantic", "safetensors", "scipy", "torch", "torchvision"),
+)
+# Images of any size, and a task for each.
+PREDICTOR_INPUTS = Schema(
+    [
+        TensorSpec(np.dtype(np.uint8), (-1, -1, -1, 3), "image"),
+        TensorSpec(np.dtype(str), (-1,), "task"),
+    ]
 )
 _BATCH = 1000  # the most metrics MLflow takes at once
 _PARAM_LENGTH = 6000  # the longest parameter MLflow takes
@@ -92,11 +90,7 @@ class Store:
             raise InputError(self.database, "", f"cannot be written: {reason}; {later}") from error
 
     def page(self) -> str:
-        """Where MLflow's UI shows the runs with the measures as columns, below its own address.
-
-        Raises:
-            InputError: as `opened`.
-        """
+        """Where MLflow's UI shows the runs with the measures as columns, below its own address."""
         with self.opened() as opened:
             query = f"workflowType=machine_learning&viewStateShareKey={VIEW}"
             return f"#/experiments/{opened.experiment}/runs?{query}"
@@ -172,6 +166,8 @@ class OpenStore:
         for old in self._client.search_logged_models([self.experiment], filter_string=mine):
             self._client.delete_logged_model(old.model_id)
         card = read_card(model.card)
+        names, shape = ("probability", "sigmoid"), (-1, len(card.types))
+        outputs = [TensorSpec(np.dtype(np.float32), shape, name) for name in names]
         files = {"tensors": model.tensors, "card": model.card, "weights": weights}
         with mlflow.start_run(run_id=run):
             mlflow.pyfunc.log_model(
@@ -179,7 +175,7 @@ class OpenStore:
                 python_model=str(PACKAGE / "runs" / "serving.py"),
                 artifacts={name: str(path) for name, path in files.items()},
                 code_paths=[str(PACKAGE)],
-                signature=signature(len(card.types)),
+                signature=ModelSignature(PREDICTOR_INPUTS, Schema(outputs)),
                 input_example={"image": picture[None], "task": np.array([card.tasks[0]])},
                 pip_requirements=[f"{name}=={version(name)}" for name in SERVING_PACKAGES],
             )
@@ -198,14 +194,3 @@ class OpenStore:
         self._client.log_batch(run, params=params)
         for start in range(0, len(metrics), _BATCH):
             self._client.log_batch(run, metrics=metrics[start : start + _BATCH])
-
-
-def signature(types: int) -> ModelSignature:
-    """Pictures of any size and a task each, to a probability and a sigmoid of each type."""
-    inputs = [
-        TensorSpec(np.dtype(np.uint8), (-1, -1, -1, 3), "image"),
-        TensorSpec(np.dtype(str), (-1,), "task"),
-    ]
-    names = ("probability", "sigmoid")
-    outputs = [TensorSpec(np.dtype(np.float32), (-1, types), name) for name in names]
-    return ModelSignature(Schema(inputs), Schema(outputs))

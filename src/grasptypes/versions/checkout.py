@@ -1,11 +1,10 @@
 """A copy of this checkout with other parameters, for the demo and the end-to-end tests.
 
-``python -m grasptypes.versions.checkout SOURCE TARGET --params CHANGES.yaml``
+``python -m grasptypes.versions.checkout SOURCE TARGET CHANGES.yaml``
 """
 
 from __future__ import annotations
 
-import argparse
 import shutil
 import subprocess
 import sys
@@ -34,13 +33,8 @@ def copy_checkout(source: str | Path, target: str | Path, changes: str | Path) -
     if shutil.which("git") is None:
         raise InputError("git", "", "is not installed; it tells which files belong to a checkout")
     source, target = Path(source), Path(target)
-    listing = subprocess.run(
-        ["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"],
-        cwd=source,
-        capture_output=True,
-        text=True,
-        check=False,
-    )
+    command = ["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"]
+    listing = subprocess.run(command, cwd=source, capture_output=True, text=True, check=False)
     if listing.returncode != 0:
         raise InputError(source, "", f"git says: {listing.stderr.strip()}")
     params = merge(read_yaml(source / "params.yaml"), read_yaml(changes))
@@ -51,18 +45,8 @@ def copy_checkout(source: str | Path, target: str | Path, changes: str | Path) -
     write_text(target / "params.yaml", yaml.safe_dump(params, sort_keys=False))
 
 
-def main() -> None:
-    """Command line; bad input ends with one line and exit status 1."""
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("source", type=Path)
-    parser.add_argument("target", type=Path)
-    parser.add_argument("--params", type=Path, required=True)
-    arguments = parser.parse_args()
+if __name__ == "__main__":
     try:
-        copy_checkout(arguments.source, arguments.target, arguments.params)
+        copy_checkout(*sys.argv[1:])
     except InputError as error:
         sys.exit(f"error: {error}")
-
-
-if __name__ == "__main__":
-    main()

@@ -47,7 +47,9 @@ class FolderLock:
             owner = self.path.read_text() or "unknown"
             sys.stderr.write(f"another run holds this folder: process {owner}\n")
             return False
-        write_bytes(self.path.with_name("room.test"), bytes(ROOM_BYTES))
+        room = self.path.with_name("room.test")
+        write_bytes(room, bytes(ROOM_BYTES))
+        room.unlink()
         self.path.write_text(str(os.getpid()))
         return True
 

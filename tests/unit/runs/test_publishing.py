@@ -13,7 +13,7 @@ import mlflow
 import pandas as pd
 import pytest
 from filelock import FileLock
-from learning import random_weights, small_predictor
+from learning import ROOT, random_weights, small_predictor
 
 from grasptypes.errors import InputError
 from grasptypes.files import write_json
@@ -21,7 +21,7 @@ from grasptypes.predictors.metrics import METRICS
 from grasptypes.predictors.scoring import CURVE_SCHEMA, METRIC_SCHEMA
 from grasptypes.predictors.weights import WEIGHTS_VARIABLE
 from grasptypes.runs import ui
-from grasptypes.runs.publishing import checksum, publish, version_tags
+from grasptypes.runs.publishing import publish, version_tags
 from grasptypes.runs.run_records import RunRecord, TrainedModel, run_record
 from grasptypes.runs.tracking import KEY_TAG, Store
 from grasptypes.settings.commands import TrackingSettings
@@ -135,7 +135,6 @@ def test_runs_name_the_commit_and_the_data(data, tmp_path, monkeypatch):
     )
     tags = version_tags(data)
     assert tags["sha256.tables"] == hashlib.sha256(listing.encode()).hexdigest()
-    assert tags["sha256.backbone"] == checksum(data["backbone"])
     assert len(tags["mlflow.source.git.commit"]) == 40
     monkeypatch.setenv("PATH", str(tmp_path))  # no git
     assert "mlflow.source.git.commit" not in version_tags(data)
@@ -159,9 +158,14 @@ def test_an_experiment_that_was_deleted_in_the_ui_is_restored(store):
         assert client.get_experiment(opened.experiment).lifecycle_stage == "active"
 
 
-def test_the_ui_opens_on_this_machine_at_the_runs(store):
-    assert store.page().startswith("#/experiments/1/runs?")
-    assert "--host 127.0.0.1" in " ".join(ui.server(store, 5000))
+def test_the_ui_opens_on_this_machine_alone_at_the_runs(store, monkeypatch, capsys):
+    called = []
+    monkeypatch.setattr("os.execv", lambda _, command: called.append(" ".join(command)))
+    monkeypatch.setattr(ui, "Store", lambda _: store)
+    monkeypatch.chdir(ROOT)
+    ui.serve("5000")
+    assert f"mlflow ui --backend-store-uri {store.uri} --host 127.0.0.1 --port 5000" in called[0]
+    assert capsys.readouterr().out.startswith("runs: http://127.0.0.1:5000/#/experiments/1/runs?")
 
 
 def test_two_processes_on_a_new_file(tmp_path):
