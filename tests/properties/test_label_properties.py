@@ -11,13 +11,13 @@ from grasptypes.labels.contacts import FINGER_LINKS, Contacts
 from grasptypes.labels.grasp_type import (
     GRASP_TYPES,
     Measures,
+    Thresholds,
     classify,
     explain,
     fingertip_span,
     sideways_share,
 )
 from grasptypes.labels.samples import COUNTS, LABELS, PROBABILITIES, samples_from_counts
-from grasptypes.settings.grasp_types import Thresholds
 
 LINKS = len(kinematics.LINK_NAMES)
 
@@ -25,7 +25,7 @@ LINKS = len(kinematics.LINK_NAMES)
 @st.composite
 def measured(draw, count=8):
     """Thresholds, and measures some of which lie exactly on them."""
-    thresholds = draw(numbers(0.01, 0.2, 4))
+    thresholds = Thresholds(*draw(numbers(0.01, 0.2, 4)))
     values = draw(numbers(-0.01, 0.3, (count, 4)))
     exact = draw(st.lists(st.booleans(), min_size=4 * count, max_size=4 * count))
     values = np.where(np.reshape(exact, values.shape), thresholds, values)
@@ -44,13 +44,13 @@ def contacts(draw, count=3):
 
 def by_hand(palm, small, sideways, span, at):
     """The tree of docs/grasp_types.md, one grasp at a time."""
-    if palm <= at[0]:
-        if small <= at[1]:
+    if palm <= at.palm_gap_m:
+        if small <= at.small_diameter_m:
             return "Small Wrap"
-        if sideways > at[2]:
+        if sideways > at.sideways_share:
             return "Power Sphere"
-        return "Large Wrap" if span > at[3] else "Medium Wrap"
-    return "Precision Sphere" if sideways > at[2] else "Precision"
+        return "Large Wrap" if span > at.large_span_m else "Medium Wrap"
+    return "Precision Sphere" if sideways > at.sideways_share else "Precision"
 
 
 @given(measured())
@@ -64,9 +64,9 @@ def test_every_grasp_has_the_type_its_thresholds_say(drawn):
 @given(measured())
 def test_explanations_agree_with_the_types_and_measure_the_margin(drawn):
     measures, thresholds = drawn
-    named = Thresholds(**dict(zip(Thresholds.model_fields, thresholds.tolist(), strict=True)))
-    types = classify(measures, thresholds)
-    for label, index in zip(explain(measures, named), types, strict=True):
+    for label, index in zip(
+        explain(measures, thresholds), classify(measures, thresholds), strict=True
+    ):
         assert label.grasp_type == GRASP_TYPES[index]
         assert label.margin >= 0
         assert label.virtual_fingers == (3 if "Sphere" in label.grasp_type else 2)
@@ -77,7 +77,7 @@ def test_the_unit_of_length_does_not_count(drawn, power):
     measures, thresholds = drawn
     factors = [2.0**power, 2.0**power, 1.0, 2.0**power]  # exact, and the share has no unit
     scaled = Measures(*(m * f for m, f in zip(measures, factors, strict=True)))
-    limits = thresholds * factors
+    limits = Thresholds(*(t * f for t, f in zip(thresholds, factors, strict=True)))
     np.testing.assert_array_equal(classify(scaled, limits), classify(measures, thresholds))
 
 

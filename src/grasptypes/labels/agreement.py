@@ -11,25 +11,23 @@ import pandera.pandas as pa
 from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import minimize
 from scipy.special import expit
-from sklearn.metrics import cohen_kappa_score, confusion_matrix
+from sklearn.metrics import cohen_kappa_score
 
 from grasptypes.hand import configuration, kinematics
-from grasptypes.hand.states import HandStates
-from grasptypes.labels.contacts import DistanceField
+from grasptypes.labels.contacts import ContactSettings, DistanceField, find_contacts
 from grasptypes.labels.grasp_type import (
+    GRASP_TYPES,
     INVALID,
-    TYPES,
     Measures,
+    Thresholds,
     classify,
-    limits,
     measure,
-    type_chances,
 )
-from grasptypes.settings.grasp_types import ContactSettings, Softness, Thresholds
 
 Array = NDArray[np.float64]
 
 ALL = "all"
+TYPES = GRASP_TYPES[: GRASP_TYPES.index(INVALID)]
 
 AGREEMENT_SCHEMA = pa.DataFrameSchema(
     {
@@ -42,13 +40,18 @@ AGREEMENT_SCHEMA = pa.DataFrameSchema(
     strict=True,
     ordered=True,
 )
-THRESHOLD_SCHEMA = AGREEMENT_SCHEMA.add_columns(
-    {name: pa.Column(float, pa.Check.gt(0)) for name in Thresholds.model_fields}
+THRESHOLD_SCHEMA = pa.DataFrameSchema(
+    {
+        **AGREEMENT_SCHEMA.columns,
+        **{name: pa.Column(float, pa.Check.gt(0)) for name in Thresholds._fields},
+    },
+    strict=True,
+    ordered=True,
 )
 
 
-class LabelledGrasps(NamedTuple):
-    """Published grasps of n poses: the types people gave them, and what is measured."""
+class Judged(NamedTuple):
+    """Published grasps of n poses: what people said and what is measured."""
 
     objects: NDArray[np.str_]
     """(n,) names."""
@@ -57,16 +60,15 @@ class LabelledGrasps(NamedTuple):
     measures: Measures
     """Fields (n,)."""
 
-    def select(self, chosen: NDArray[np.bool_]) -> LabelledGrasps:
+    def select(self, chosen: NDArray[np.bool_]) -> Judged:
         """The grasps where `chosen` (n,) holds."""
-        return LabelledGrasps(
-            self.objects[chosen], self.labels[chosen], self.measures.select(chosen)
-        )
+        measures = Measures(*(values[chosen] for values in self.measures))
+        return Judged(self.objects[chosen], self.labels[chosen], measures)
 
 
-def measure_published(
+def judge(
     published: pd.DataFrame, fields: Mapping[str, DistanceField], settings: ContactSettings
-) -> LabelledGrasps:
+) -> Judged:
     """Measure the published grasps that people gave a type and that have a configuration.
 
     Args:
@@ -75,20 +77,23 @@ def measure_published(
     """
     known = published.hand_configuration.notna() & (published.grasp_type != INVALID)
     chosen = published[known & published.object.isin(list(fields))]
-    parts = []
-    for name, rows in chosen.groupby("object", sort=True):
-        hand = configuration.unpack(np.stack(rows.hand_configuration.tolist()))
-        states = HandStates(hand.T_object_hand, kinematics.couple(hand.dofs_rad))
-        parts.append(np.stack(measure(fields[str(name)], states, settings)))
+    parts = [
+        _measure(np.stack(rows.hand_configuration.tolist()), fields[str(name)], settings)
+        for name, rows in chosen.groupby("object", sort=True)
+    ]
     ordered = chosen.sort_values("object", kind="stable")
     labels = np.array([TYPES.index(name) for name in ordered.grasp_type], dtype=np.int64)
-    measures = Measures(*np.concatenate(parts, axis=1))
-    return LabelledGrasps(ordered.object.to_numpy(dtype=str), labels, measures)
+    columns = np.concatenate([np.stack(part) for part in parts], axis=1)
+    return Judged(ordered.object.to_numpy(dtype=str), labels, Measures(*columns))
 
 
-def agreement(
-    grasps: LabelledGrasps, predicted: NDArray[np.int64], fitted_on: ArrayLike
-) -> pd.DataFrame:
+def _measure(numbers: Array, field: DistanceField, settings: ContactSettings) -> Measures:
+    hand = configuration.unpack(numbers)
+    joint_angles = kinematics.couple(hand.dofs_rad)
+    return measure(find_contacts(field, hand.T_object_hand, joint_angles, settings), joint_angles)
+
+
+def agreement(judged: Judged, predicted: NDArray[np.int64], fitted_on: ArrayLike) -> pd.DataFrame:
     """A row an object and one for all.
 
     Args:
@@ -101,16 +106,19 @@ def agreement(
     """
     fitted_on = np.asarray(fitted_on, dtype=str)
     rows = [
-        _row(str(name), grasps.labels[own], predicted[own], fitted_on[own])
-        for name in np.unique(grasps.objects)
-        for own in [grasps.objects == name]
+        _row(str(name), judged.labels[own], predicted[own], fitted_on[own])
+        for name in np.unique(judged.objects)
+        for own in [judged.objects == name]
     ]
-    rows.append(_row(ALL, grasps.labels, predicted, fitted_on))
+    rows.append(_row(ALL, judged.labels, predicted, fitted_on))
     return pd.DataFrame(rows, columns=list(AGREEMENT_SCHEMA.columns))
 
 
 def _row(
-    name: str, labels: NDArray[np.int64], predicted: NDArray[np.int64], fitted_on: NDArray[np.str_]
+    name: str,
+    labels: NDArray[np.int64],
+    predicted: NDArray[np.int64],
+    fitted_on: NDArray[np.str_],
 ) -> dict[str, str | int | float]:
     alone = len(np.unique(np.concatenate([labels, predicted]))) == 1
     kappa = 1.0 if alone else float(cohen_kappa_score(labels, predicted))
@@ -131,47 +139,63 @@ def describe_fit(objects: Iterable[str], fitted_on: Iterable[str]) -> list[str]:
     return [own if name in seen else others for name in objects]
 
 
-def confusion(grasps: LabelledGrasps, predicted: NDArray[np.int64]) -> NDArray[np.int64]:
+def confusion(judged: Judged, predicted: NDArray[np.int64]) -> NDArray[np.int64]:
     """Counts (6, 6): rows are the people's types, columns the rule's."""
-    return confusion_matrix(grasps.labels, predicted, labels=np.arange(len(TYPES)))
+    counts = np.zeros((len(TYPES), len(TYPES)), dtype=np.int64)
+    np.add.at(counts, (judged.labels, predicted), 1)
+    return counts
 
 
-def fit_thresholds(grasps: LabelledGrasps, softness: Softness) -> Array:
-    """Thresholds (4,) with the highest expected accuracy if branches are taken by chance.
+def fit_thresholds(judged: Judged, softness: Thresholds) -> Thresholds:
+    """Thresholds with the highest expected accuracy if each branch is taken by a logistic chance.
 
-    The chance is logistic in the logarithm of measure over threshold, divided by `softness`: a
-    smooth aim has a broad best value, where plain accuracy has many narrow ones. The search begins
-    at the medians of the measures, so that the result is a matter of these grasps alone.
+    The chance depends on the logarithm of measure over threshold, divided by `softness`: a smooth
+    aim has a broad best value, where plain accuracy has many narrow ones. The search begins at the
+    medians of the measures, so that the result is a matter of these grasps alone.
+
+    Args:
+        softness: widths in natural logarithms.
     """
-    measured = np.log(np.maximum(np.stack(grasps.measures), 1e-6))
-    widths = limits(softness)[:, None]
+    measured = np.log(np.maximum(np.stack(judged.measures), 1e-6))
+    widths = np.asarray(softness)[:, None]
 
     def loss(log_thresholds: Array) -> float:
         """Less the mean chance that thresholds (4,) of soft edges give to people's types."""
-        chance = type_chances(expit((measured - log_thresholds[:, None]) / widths))
-        return -float(chance[grasps.labels, np.arange(len(grasps.labels))].mean())
+        above = expit((measured - log_thresholds[:, None]) / widths)
+        chance = _type_chances(*above)
+        return -float(chance[judged.labels, np.arange(len(judged.labels))].mean())
 
     options = {"maxiter": 600, "xatol": 1e-4, "fatol": 1e-7}
     start = np.median(measured, axis=1)
-    return np.exp(minimize(loss, start, method="Nelder-Mead", options=options).x)
+    best = minimize(loss, start, method="Nelder-Mead", options=options)
+    return Thresholds(*(float(value) for value in np.exp(best.x)))
 
 
-def cross_validate(grasps: LabelledGrasps, softness: Softness) -> pd.DataFrame:
+def _type_chances(off_palm: Array, open_hand: Array, three: Array, large: Array) -> Array:
+    """Chances (6, n) of `TYPES` if the tree's branches are taken with chances (n,)."""
+    wrap = (1 - off_palm) * open_hand * (1 - three)
+    small = (1 - off_palm) * (1 - open_hand)
+    sphere = (1 - off_palm) * open_hand * three
+    return np.stack(
+        [wrap * large, wrap * (1 - large), small, sphere, off_palm * three, off_palm * (1 - three)]
+    )
+
+
+def cross_validate(judged: Judged, softness: Thresholds) -> pd.DataFrame:
     """Label each object with thresholds fitted on all others.
 
     Returns:
         A table of `THRESHOLD_SCHEMA`: an object's row holds the thresholds it was labelled with,
         the last row those fitted on all objects (its accuracy is that of the rows above together).
     """
-    predicted = np.empty(len(grasps.labels), dtype=np.int64)
-    names = np.unique(grasps.objects)
+    predicted = np.empty(len(judged.labels), dtype=np.int64)
+    names = np.unique(judged.objects)
     fitted = []
     for name in names:
-        own = grasps.objects == name
-        fitted.append(fit_thresholds(grasps.select(~own), softness))
-        predicted[own] = classify(grasps.measures.select(own), fitted[-1])
-    fitted.append(fit_thresholds(grasps, softness))
+        own = judged.objects == name
+        fitted.append(fit_thresholds(judged.select(~own), softness))
+        predicted[own] = classify(judged.select(own).measures, fitted[-1])
+    fitted.append(fit_thresholds(judged, softness))
     words = [f"{len(names) - 1} other objects"] * len(predicted)
-    table = agreement(grasps, predicted, words)
-    thresholds = pd.DataFrame(fitted, columns=list(Thresholds.model_fields)).round(5)
-    return pd.concat([table, thresholds], axis=1)
+    table = agreement(judged, predicted, words)
+    return pd.concat([table, pd.DataFrame(fitted).round(5)], axis=1)

@@ -21,16 +21,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from grasptypes.hand import kinematics
 from grasptypes.hand.parts import DISTAL_HUB_RADIUS_M
-from grasptypes.hand.states import HandStates
-from grasptypes.labels.contacts import (
-    DISTAL_LINKS,
-    FINGER_LINKS,
-    PALM,
-    Contacts,
-    DistanceField,
-    find_contacts,
-)
-from grasptypes.settings.grasp_types import ContactSettings, Softness, Thresholds
+from grasptypes.labels.contacts import DISTAL_LINKS, FINGER_LINKS, PALM, Contacts
 
 Array = NDArray[np.float64]
 
@@ -38,9 +29,28 @@ LARGE_WRAP, MEDIUM_WRAP, SMALL_WRAP = "Large Wrap", "Medium Wrap", "Small Wrap"
 POWER_SPHERE, PRECISION_SPHERE, PRECISION = "Power Sphere", "Precision Sphere", "Precision"
 INVALID = "Invalid"
 # Spelled and ordered as the published table; its GraspTypeIndex counts from 1.
-TYPES = (LARGE_WRAP, MEDIUM_WRAP, SMALL_WRAP, POWER_SPHERE, PRECISION_SPHERE, PRECISION)
-GRASP_TYPES = (*TYPES, INVALID)
-SPHERES = (POWER_SPHERE, PRECISION_SPHERE)
+GRASP_TYPES = (
+    LARGE_WRAP,
+    MEDIUM_WRAP,
+    SMALL_WRAP,
+    POWER_SPHERE,
+    PRECISION_SPHERE,
+    PRECISION,
+    INVALID,
+)
+
+
+class Thresholds(NamedTuple):
+    """Where the tree branches."""
+
+    palm_gap_m: float
+    """Up to this gap between palm and object a grasp is a power grasp, metres."""
+    small_diameter_m: float
+    """Up to this enclosed diameter a power grasp is a small wrap, metres."""
+    sideways_share: float
+    """Above this share of sideways push a third virtual finger acts, 0 to 1."""
+    large_span_m: float
+    """Above this span between opposing fingertips a wrap is large, metres."""
 
 
 class Measures(NamedTuple):
@@ -50,56 +60,6 @@ class Measures(NamedTuple):
     enclosed_diameter_m: Array
     sideways_share: Array
     span_m: Array
-
-    def select(self, chosen: NDArray[np.bool_]) -> Measures:
-        """The grasps where `chosen` (n,) holds."""
-        return Measures(*(values[chosen] for values in self))
-
-
-class Question(NamedTuple):
-    """Is a measure above its threshold? `below` and `above` are what follows."""
-
-    measure: int
-    """Index into `Measures` and `Thresholds`."""
-    name: str
-    below: Question | str
-    above: Question | str
-
-    def amount(self, value: float) -> str:
-        """A value of the measure with its unit."""
-        return f"{value:.3f}" if self.name.endswith("share") else f"{value * 1e3:.1f} mm"
-
-
-TREE = Question(
-    0,
-    "palm gap",
-    below=Question(
-        1,
-        "enclosed diameter",
-        below=SMALL_WRAP,
-        above=Question(
-            2,
-            "sideways share",
-            below=Question(3, "fingertip span", below=MEDIUM_WRAP, above=LARGE_WRAP),
-            above=POWER_SPHERE,
-        ),
-    ),
-    above=Question(2, "sideways share", below=PRECISION, above=PRECISION_SPHERE),
-)
-
-
-def ways(node: Question | str = TREE) -> dict[str, list[tuple[Question, bool]]]:
-    """The questions on the way to each type from left to right, and whether it lies above."""
-    if isinstance(node, str):
-        return {node: []}
-    return {
-        name: [(node, above), *way]
-        for above, child in ((False, node.below), (True, node.above))
-        for name, way in ways(child).items()
-    }
-
-
-WAYS = ways()
 
 
 class Label(NamedTuple):
@@ -113,12 +73,16 @@ class Label(NamedTuple):
     """Distance to the nearest threshold passed, as a share of that threshold."""
 
 
-def measure(field: DistanceField, hands: HandStates, settings: ContactSettings) -> Measures:
-    """Measure n grasps of an object whose signed distance is known."""
-    contacts = find_contacts(field, hands, settings)
+def measure(contacts: Contacts, joint_angles_rad: ArrayLike) -> Measures:
+    """Measure n grasps.
+
+    Args:
+        contacts: of n poses.
+        joint_angles_rad: (n, 8) in the order of `kinematics.JOINT_NAMES`.
+    """
     return Measures(
         contacts.gap_m[:, PALM],
-        np.median(enclosed_diameters(hands.joint_angles_rad), axis=1),
+        np.median(enclosed_diameters(joint_angles_rad), axis=1),
         sideways_share(contacts),
         fingertip_span(contacts),
     )
@@ -161,48 +125,44 @@ def fingertip_span(contacts: Contacts) -> Array:
     return np.maximum(*spans)
 
 
-def limits(settings: Thresholds | Softness) -> Array:
-    """The four numbers (4,) of the settings, in the order of `Measures`."""
-    return np.array([value for _, value in settings])
-
-
-def type_chances(above: Array) -> Array:
-    """Chances (6, n) of `TYPES` where measures are above their thresholds by chances (4, n)."""
-    chances = []
-    for name in TYPES:
-        chance = np.ones(above.shape[1])
-        for question, is_above in WAYS[name]:
-            chance = chance * (above[question.measure] if is_above else 1 - above[question.measure])
-        chances.append(chance)
-    return np.stack(chances)
-
-
-def classify(measures: Measures, thresholds: ArrayLike) -> NDArray[np.int64]:
-    """Indices (n,) into `TYPES` of n grasps, with thresholds (4,) in the order of `Measures`."""
-    above = np.stack(measures) > np.asarray(thresholds)[:, None]
-    return type_chances(above.astype(np.float64)).argmax(axis=0)
+def classify(measures: Measures, thresholds: Thresholds) -> NDArray[np.int64]:
+    """Indices (n,) into `GRASP_TYPES`, 0 to 5: the tree, for all grasps at once."""
+    at_palm = measures.palm_gap_m <= thresholds.palm_gap_m
+    small = measures.enclosed_diameter_m <= thresholds.small_diameter_m
+    three = measures.sideways_share > thresholds.sideways_share
+    large = measures.span_m > thresholds.large_span_m
+    conditions = [at_palm & small, at_palm & three, at_palm & large, at_palm, three]
+    types = [SMALL_WRAP, POWER_SPHERE, LARGE_WRAP, MEDIUM_WRAP, PRECISION_SPHERE]
+    indices = [GRASP_TYPES.index(name) for name in types]
+    return np.select(conditions, indices, default=GRASP_TYPES.index(PRECISION))
 
 
 def explain(measures: Measures, thresholds: Thresholds) -> list[Label]:
     """The labels of n grasps, each with its way through the tree."""
-    at = limits(thresholds).tolist()
-    measured = np.stack(measures, axis=1).tolist()
-    types = classify(measures, at).tolist()
-    return [_label(TYPES[index], values, at) for index, values in zip(types, measured, strict=True)]
+    types = classify(measures, thresholds)
+    return [
+        _explain(GRASP_TYPES[grasp_type], values.tolist(), thresholds)
+        for grasp_type, values in zip(types, np.stack(measures, axis=1), strict=True)
+    ]
 
 
-def _label(grasp_type: str, measured: list[float], thresholds: list[float]) -> Label:
-    (_, precision), *_ = way = WAYS[grasp_type]
-    steps, margins = [], []
-    for question, above in way:
-        value, limit = measured[question.measure], thresholds[question.measure]
-        sign = ">" if above else "<="
-        steps.append(f"{question.name} {question.amount(value)} {sign} {question.amount(limit)}")
-        margins.append(abs(value - limit) / limit)
-    branch = f"{'precision' if precision else 'power'}: {', '.join(steps)}"
-    return Label(grasp_type, virtual_fingers(grasp_type), branch, min(margins))
+def _explain(grasp_type: str, measured: list[float], thresholds: Thresholds) -> Label:
+    """The explanation of one grasp whose type is known, measured in the order of `Measures`."""
+    names = ("palm gap", "enclosed diameter", "sideways share", "fingertip span")
+    palm, small, sideways, large = zip(names, measured, thresholds, strict=True)
+    if grasp_type in (PRECISION, PRECISION_SPHERE):
+        kind, passed = "precision", [palm, sideways]
+    else:
+        kind, passed = "power", [palm, small, sideways, large]
+        passed = passed[: {SMALL_WRAP: 2, POWER_SPHERE: 3}.get(grasp_type, 4)]
+    steps = [_step(*threshold) for threshold in passed]
+    margins = [abs(value - limit) / limit for _, value, limit in passed]
+    fingers = 3 if grasp_type in (POWER_SPHERE, PRECISION_SPHERE) else 2
+    return Label(grasp_type, fingers, f"{kind}: " + ", ".join(steps), float(min(margins)))
 
 
-def virtual_fingers(grasp_type: str) -> int:
-    """How many virtual fingers hold: fingers, or palm and fingers, that act as one."""
-    return 3 if grasp_type in SPHERES else 2
+def _step(name: str, value: float, limit: float) -> str:
+    sign = ">" if value > limit else "<="
+    if name.endswith("share"):
+        return f"{name} {value:.3f} {sign} {limit:.3f}"
+    return f"{name} {value * 1e3:.1f} mm {sign} {limit * 1e3:.1f} mm"

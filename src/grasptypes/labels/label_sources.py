@@ -13,7 +13,7 @@ SOURCES = ("simulated", "published")
 
 
 @dataclass(frozen=True)
-class LabelledNames:
+class Known:
     """Objects and tasks of the parameters that have labels, in the order of the parameters."""
 
     objects: list[str]
@@ -26,7 +26,7 @@ def label_sources(
     objects: Collection[str],
     tasks: Collection[str],
     path: str | Path = "params.yaml",
-) -> dict[str, LabelledNames]:
+) -> dict[str, Known]:
     """What is learned from each label source.
 
     Physics labels every object for every task. Results on published labels cover what the authors
@@ -48,10 +48,4 @@ def label_sources(
     if "published" in used and not known:
         message = "'published' has none of these objects and tasks; leave it out"
         raise InputError(path, "labels", message)
-    return dict(
-        zip(
-            SOURCES,
-            (LabelledNames([*objects], [*tasks]), LabelledNames(known, known_tasks)),
-            strict=True,
-        )
-    )
+    return dict(zip(SOURCES, (Known([*objects], [*tasks]), Known(known, known_tasks)), strict=True))

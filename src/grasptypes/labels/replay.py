@@ -23,9 +23,7 @@ from numpy.typing import NDArray
 
 from grasptypes.errors import InputError, parsing
 from grasptypes.hand import configuration, kinematics, shapes
-from grasptypes.hand.states import HandStates
 from grasptypes.objects.distance_grid import signed_distance
-from grasptypes.settings.grasp_types import ReplaySettings
 
 Array = NDArray[np.float64]
 
@@ -43,6 +41,17 @@ REPLAY_SCHEMA = pa.DataFrameSchema(
     strict=True,
     ordered=True,
 )
+
+
+class ReplaySettings(NamedTuple):
+    """How finely the hand is sampled and when an angle counts as beyond its limit."""
+
+    object_scale: float
+    """Size of the grasped object relative to its mesh, without unit."""
+    surface_spacing_m: float
+    """Distance between neighbouring points on the hand, metres."""
+    limit_tolerance_rad: float
+    """How far an angle may lie beyond the real hand's limit, radians."""
 
 
 class Fit(NamedTuple):
@@ -91,7 +100,8 @@ def fit_hands(configurations: Array, mesh: trimesh.Trimesh, spacing_m: float) ->
     Fingertips are taken as coupled to their finger bases: the published poses hold no more.
     """
     hand = configuration.unpack(configurations)
-    T_object_link = HandStates(hand.T_object_hand, kinematics.couple(hand.dofs_rad)).link_poses()
+    poses = kinematics.link_poses(kinematics.couple(hand.dofs_rad))
+    T_object_link = hand.T_object_hand[:, None] @ poses
     surface = shapes.surface_points(spacing_m)
     T_object_point = T_object_link[:, surface.link_index]
     points = np.einsum("npij,pj->npi", T_object_point[..., :3, :3], surface.points_m)
@@ -145,4 +155,5 @@ def replay(
             mesh = read_reference_mesh(meshes[name], settings.object_scale)
             numbers = np.stack(poses.hand_configuration.tolist())
             rows.append(replay_object(str(name), numbers, mesh, settings))
-    return pd.DataFrame(rows, columns=list(REPLAY_SCHEMA.columns))
+    columns = list(REPLAY_SCHEMA.columns)
+    return pd.DataFrame(rows, columns=columns)

@@ -15,12 +15,13 @@ import numpy as np
 import pandas as pd
 
 from grasptypes.contact_maps.contact_map import ContactMap
+from grasptypes.labels.contacts import ContactSettings
 from grasptypes.labels.dataset import label_grasps
+from grasptypes.labels.grasp_type import Thresholds
 from grasptypes.objects.distance_grid import DistanceGrid
 from grasptypes.objects.object_files import COLLISION, DISTANCE_GRID, PROPERTIES
 from grasptypes.planning.plan_contacts import PlanContacts
 from grasptypes.seeds import seed
-from grasptypes.settings.grasp_types import ContactSettings, Thresholds
 from grasptypes.synthesis.holding import PhysicsSettings, read_body
 from grasptypes.synthesis.physics import physics
 from grasptypes.synthesis.search import read_thing

@@ -3,13 +3,25 @@
 import numpy as np
 import pandas as pd
 import pytest
-from tests.unit.labels.cases import CONTACTS, THRESHOLDS, Ball
 
 from grasptypes.errors import InputError
 from grasptypes.hand import configuration, kinematics
+from grasptypes.labels.contacts import ContactSettings
 from grasptypes.labels.dataset import DATASET_SCHEMA, dataset_table, label_grasps, sample_table
+from grasptypes.labels.grasp_type import Thresholds
 from grasptypes.labels.published import read_published
 from grasptypes.labels.samples import SAMPLE_SCHEMA
+
+CONTACTS = ContactSettings(0.008, 0.002, 0.025, 3.0)
+THRESHOLDS = Thresholds(0.019, 0.047, 0.052, 0.083)
+
+
+class Ball:
+    """A sphere of 40 mm radius at the object's origin."""
+
+    def distance_and_gradient(self, points):
+        length = np.linalg.norm(points, axis=-1)
+        return length - 0.04, points / length[..., None]
 
 
 def grasps(valid=(True, True, False), name="ball"):
@@ -35,7 +47,7 @@ def grasps(valid=(True, True, False), name="ball"):
 
 
 def made(**changes):
-    return dataset_table([label_grasps(grasps(**changes), Ball(0.04), CONTACTS, THRESHOLDS)])
+    return dataset_table([label_grasps(grasps(**changes), Ball(), CONTACTS, THRESHOLDS)])
 
 
 def test_every_row_is_complete_and_meets_the_schema():
