@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import contextlib
-import functools
 import json
 import os
 import shutil
@@ -15,7 +14,6 @@ import threading
 import time
 import urllib.request
 from collections.abc import Iterator
-from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
 from typing import Any
 from urllib.parse import urlsplit
@@ -27,16 +25,9 @@ from selenium.webdriver.support.ui import WebDriverWait
 
 PROGRAMS = ("chromium", "chromedriver")
 OPTIONS = (
-    "--headless",
-    "--no-sandbox",
-    "--disable-gpu",
-    "--disable-quic",
-    "--no-first-run",
-    "--disable-background-networking",
-    "--disable-component-update",
-    "--disable-sync",
-    "--disable-dev-shm-usage",
-    "--window-size=1600,1000",
+    *("--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run"),
+    *("--disable-background-networking", "--disable-component-update", "--disable-sync"),
+    *("--disable-dev-shm-usage", "--window-size=1600,1000"),
     # Nothing but this machine is there: a page that needs more fails in front of the test.
     "--host-resolver-rules=MAP * ~NOTFOUND, EXCLUDE 127.0.0.1",
 )
@@ -73,15 +64,6 @@ def wait_for(driver: webdriver.Chrome, script: str, *arguments: Any) -> Any:
     return WebDriverWait(driver, PATIENCE_S).until(value, f"never true: {script} {arguments}")
 
 
-def click_text(driver: webdriver.Chrome, text: str, within: str = "a, button") -> None:
-    """Click the first visible element of a CSS selector whose text is `text`."""
-    script = (
-        "[...document.querySelectorAll(arguments[1])]"
-        ".find(e => e.innerText.trim() === arguments[0] && e.offsetParent)"
-    )
-    driver.execute_script("arguments[0].click()", wait_for(driver, script, text, within))
-
-
 def foreign_hosts(driver: webdriver.Chrome) -> set[str]:
     """Every host but this machine that pages asked something of since the last call."""
     events = (json.loads(entry["message"])["message"] for entry in driver.get_log("performance"))
@@ -93,16 +75,6 @@ def foreign_hosts(driver: webdriver.Chrome) -> set[str]:
     return {urlsplit(url).netloc for url in urls if url.startswith(("http", "ws"))} - {
         urlsplit(url).netloc for url in urls if urlsplit(url).hostname == "127.0.0.1"
     }
-
-
-@contextlib.contextmanager
-def served_folder(folder: Path) -> Iterator[str]:
-    """A web server on 127.0.0.1 that hands out a folder; its address."""
-    handler = functools.partial(SimpleHTTPRequestHandler, directory=str(folder))
-    with ThreadingHTTPServer(("127.0.0.1", 0), handler) as server:
-        threading.Thread(target=server.serve_forever, daemon=True).start()
-        yield f"http://127.0.0.1:{server.server_port}"
-        server.shutdown()
 
 
 def make(*arguments: str) -> tuple[str, ...]:
@@ -130,20 +102,15 @@ def served_runs(repository: Repository) -> Iterator[str]:
         # Before it stands what was published.
         link = next(line for line in process.stdout if line.startswith("runs:")).split()[-1]
         threading.Thread(target=process.stdout.read, daemon=True).start()
-        _wait_for_server(f"http://127.0.0.1:{port}/health")
+        deadline = time.monotonic() + PATIENCE_S
+        while True:
+            try:
+                urllib.request.urlopen(f"http://127.0.0.1:{port}/health", timeout=5).close()
+                break
+            except OSError:
+                assert time.monotonic() < deadline
+                time.sleep(0.2)
         yield link
     finally:
         os.killpg(process.pid, signal.SIGTERM)
         process.wait(PATIENCE_S)
-
-
-def _wait_for_server(url: str) -> None:
-    deadline = time.monotonic() + PATIENCE_S
-    while True:
-        try:
-            with urllib.request.urlopen(url, timeout=5):
-                return
-        except OSError:
-            if time.monotonic() > deadline:
-                raise
-            time.sleep(0.2)

@@ -84,6 +84,10 @@ class Repository:
     def snakemake(self, *arguments: str) -> str:
         return self.run("snakemake", "-j2", *(arguments or (TARGET,)))
 
+    def module(self, *arguments: str) -> str:
+        """What `python -m` prints."""
+        return self.run("python", "-m", *arguments, PYTHONPATH=str(self.path / "src"))
+
     def planned(self, *targets: str) -> Counter[str]:
         """The jobs a dry run announces; it shows its table twice."""
         output = self.run("snakemake", "-n", *targets)

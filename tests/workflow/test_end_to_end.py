@@ -1,53 +1,119 @@
-"""The small configuration, from nothing to Table I, and what both tools say of it afterwards."""
+"""The small configuration from nothing to Table I: complete, the same again, and measured."""
 
+import functools
+import hashlib
+import http.server
+import json
 import sqlite3
+import threading
+from pathlib import Path
 
+import numpy as np
 import pandas as pd
-from repository import Repository, jobs
+import pytest
+from repository import Repository
+from verify import checksums
 
-TASKS = 2
-OBJECTS = 2
+from grasptypes.labels.published_source import FETCHED, PUBLISHED
+
+MODELS = ["no_task", "task_vector", "task_in_image", "ignores_task"]
 
 
 def test_every_session_has_one_grasp_and_every_failure_a_reason(complete: Repository) -> None:
     grasps = pd.read_csv(complete.path / "data/grasps.csv")
-    assert len(grasps) == OBJECTS * TASKS * 4
+    assert len(grasps) == 2 * 2 * 4
     for _, group in grasps.groupby(["Object", "Intent"]):
         assert sorted(group.Session) == [1, 2, 3, 4]
-    invalid = grasps.GraspType == "Invalid"
-    assert not (grasps[invalid].reason == "valid").any()
-    assert (grasps[~invalid].reason == "valid").all()
+    assert ((grasps.GraspType == "Invalid") == (grasps.reason != "valid")).all()
     assert not grasps.isna().any().any()
-    attempts = [
-        pd.read_parquet(path) for path in (complete.path / "data/attempts").rglob("*.parquet")
-    ]
-    tried = pd.concat(attempts)
+    attempts = (complete.path / "data/attempts").rglob("*.parquet")
+    tried = pd.concat([pd.read_parquet(path) for path in attempts])
     assert (tried.valid == (tried.reason == "")).all()
 
 
 def test_table1_has_the_four_models_beside_the_paper(complete: Repository) -> None:
     table = pd.read_csv(complete.path / "reports/table1.csv")
-    models = ["no_task", "task_vector", "task_in_image", "ignores_task"]
-    assert set(models) <= set(table.model)
-    ours = table[table.model.isin(models)]
+    ours = table[table.model.isin(MODELS)]
+    assert ours.model.tolist() == MODELS
     for name in ("sim_mean", "acc_mean", "prec_mean"):
         assert ours[name].between(0, 1).all()
     assert dict(zip(ours.model, ours.paper_sim, strict=True))["task_in_image"] == 0.92
     assert ours.weights.nunique() == 1
 
 
-def test_both_tools_have_nothing_to_do(complete: Repository) -> None:
-    assert complete.snakemake_is_clean("all")
-    assert complete.dvc_is_clean()
-    assert jobs(complete.dvc("repro")) == {}
-
-
-def test_every_fold_is_a_run_below_its_parent(complete: Repository) -> None:
+def test_every_fold_is_a_run_below_its_parent_and_took_its_time(complete: Repository) -> None:
     with sqlite3.connect(complete.path / "mlflow.db") as store:
-        runs = store.execute("select count(*) from runs where status = 'FINISHED'").fetchone()[0]
-        total = store.execute("select count(*) from runs").fetchone()[0]
-        children = store.execute(
-            "select count(*) from tags where key = 'mlflow.parentRunId'"
-        ).fetchone()[0]
-    parents = 4 * 2  # models and label sources
-    assert (runs, total, children) == (3 * parents, 3 * parents, 2 * parents)
+        runs = store.execute("select end_time - start_time, status from runs").fetchall()
+        parents = "select count(*) from tags where key = 'mlflow.parentRunId'"
+        children = store.execute(parents).fetchone()[0]
+    assert (len(runs), children) == (3 * 4 * 2, 2 * 4 * 2)
+    assert all(took_ms > 500 and status == "FINISHED" for took_ms, status in runs)
+
+
+def test_one_job_at_a_time_makes_the_same_files(
+    complete: Repository, repository: Repository
+) -> None:
+    repository.run("snakemake", "-j1", "reports/metrics/simulated/task_vector.csv")
+    made, expected = checksums(repository.path), checksums(complete.path)
+    assert {name: expected.get(name) for name in made} == made
+    kinds = {Path(name).parts[1] for name in made if name.startswith("data/")}
+    assert {"objects", "contact_maps", "grasps", "renders", "features"} <= kinds
+
+
+@pytest.mark.slow
+def test_other_targets_on_the_way_lead_to_the_same_lock(
+    complete: Repository, repository: Repository
+) -> None:
+    repository.run("snakemake", "-j1", "reports/generalisation.csv", "reports/planning.csv")
+    repository.dvc("repro")
+    lock = "dvc.lock"
+    assert (repository.path / lock).read_text() == (complete.path / lock).read_text()
+    assert checksums(complete.path).items() <= checksums(repository.path).items()
+
+
+def test_benchmarks_tell_the_time_of_every_rule_or_what_they_lack(
+    complete: Repository, fresh: Repository
+) -> None:
+    output = complete.module("benchmarks", "records")
+    for name in ("wall time of train_predictor", "wall time of the main job", "peak memory of"):
+        assert name in output
+    output = fresh.module("benchmarks", "records", "idle", "synthesis", "renders", "features")
+    assert output.count("left out") == 5
+    assert "data/renders is missing; snakemake renders makes it" in output
+
+
+def test_variants_go_beside_their_objects(changed: Repository) -> None:
+    changed.set_param("objects.variants", 1)
+    planned = changed.planned("data/samples.csv", "features")
+    assert planned["prepare_variant"] == planned["render_object"] == 2
+    assert planned["prepare_object"] == 0
+    assert planned["synthesize_grasps"] == 2 * 2
+    changed.snakemake("data/contact_maps/mug_v01/use.npz")
+    properties = json.loads((changed.path / "data/objects/mug_v01/properties.json").read_text())
+    assert (properties["object"], properties["density_kg_m3"]) == ("mug_v01", 1900.0)
+    with np.load(changed.path / "data/contact_maps/mug_v01/use.npz") as contact_map:
+        assert contact_map["sessions"].max() > 0.5
+
+
+def test_the_authors_table_is_fetched_once_and_only_with_the_right_checksum(
+    repository: Repository, tmp_path: Path
+) -> None:
+    content = b"Index,Object\n"
+    (tmp_path / "host").mkdir()
+    (tmp_path / "host/table.csv").write_bytes(content)
+    handler = functools.partial(
+        http.server.SimpleHTTPRequestHandler, directory=str(tmp_path / "host")
+    )
+    with http.server.ThreadingHTTPServer(("127.0.0.1", 0), handler) as server:
+        threading.Thread(target=server.serve_forever, daemon=True).start()
+        url = f"http://127.0.0.1:{server.server_port}/table.csv"
+        right, wrong = hashlib.sha256(content).hexdigest(), "0" * 64
+        call = ("snakemake", "-j1", FETCHED)
+        said = repository.run(*call, check=False, **{PUBLISHED: f"{url}#sha256={wrong}"})
+        assert f"error: fetch_published: {PUBLISHED}: {url} has the SHA-256 {right}" in said
+        assert not (repository.path / FETCHED).exists()
+        named = {PUBLISHED: f"{url}#sha256={right}"}
+        repository.run(*call, **named)
+        server.shutdown()
+    assert (repository.path / FETCHED).read_bytes() == content
+    assert "Nothing to be done" in repository.run(*call, **named)

@@ -1,62 +1,49 @@
-"""What Snakemake says before it runs anything."""
+"""What Snakemake says before it runs anything, and how a run ends that fails."""
 
 import os
-import shutil
 import subprocess
 import sys
 from pathlib import Path
 
 import pytest
-from repository import ROOT, Repository
+from repository import ROOT, TARGET, Repository
 
-from grasptypes.predictors.weights import WEIGHTS_VARIABLE
 from grasptypes.versions.guard import FolderLock
+
+OBJECT = "data/objects/mug/visual.glb"
 
 
 def test_the_main_job_is_complete_and_small(fresh: Repository) -> None:
-    planned = fresh.planned("reports/table1.csv")
+    planned = fresh.planned(TARGET)
     assert planned["prepare_object"] == 2
-    assert planned["map_contacts"] == 4
-    assert planned["synthesize_grasps"] == 4
-    assert planned["train_predictor"] == 4
+    assert (
+        planned["map_contacts"] == planned["synthesize_grasps"] == planned["train_predictor"] == 4
+    )
+    assert planned["publish_runs"] == 0
 
 
 @pytest.mark.parametrize(
-    ("key", "value", "expected"),
+    ("old", "new", "expected"),
     [
-        ("objects.names", ["mug", "teapot"], "params.yaml: objects.names.1: 'teapot'"),
-        ("objects.scale", "big", "params.yaml: objects.scale: 'big' is not of type 'number'"),
-        ("seed", 0.5, "params.yaml: seed: 0.5 is not of type 'integer'"),
+        ("- mug", "- teapot", "objects.names.1: 'teapot'"),
+        ("seed: 0", "seed: 0.5", "seed: 0.5"),
+        ("seed: 0", "seed: [1", "not valid YAML"),
+        ("seed: 0", "seed: 0\n__use_yte__: true\n?open('ran', 'w'): 1", "__use_yte__"),
     ],
 )
-def test_bad_params_end_with_one_line(
-    repository: Repository, key: str, value: object, expected: str
+def test_bad_params_end_with_one_line_and_are_never_run(
+    repository: Repository, old: str, new: str, expected: str
 ) -> None:
-    repository.set_param(key, value)
-    output = repository.run("snakemake", "-n", check=False)
-    lines = [line for line in output.splitlines() if "profile" not in line]
-    assert len(lines) == 1, output
-    assert lines[0].startswith(f"error: {expected}")
-    assert not (repository.path / "data").exists()
-
-
-@pytest.mark.parametrize(
-    ("content", "expected"),
-    [
-        ("", "must hold a mapping"),
-        ("seed: [1\n", "line 2: not valid YAML"),
-        ("__use_yte__: true\n?open('ran', 'w'): 1\n", "'__use_yte__' were unexpected"),
-    ],
-)
-def test_a_file_that_is_no_params_never_reaches_snakemake(
-    repository: Repository, content: str, expected: str
-) -> None:
-    (repository.path / "params.yaml").write_text(content)
+    path = repository.path / "params.yaml"
+    text = path.read_text()
+    assert old in text
+    path.write_text(text.replace(old, new))
     output = repository.run("snakemake", "-n", check=False)
     lines = [line for line in output.splitlines() if "profile" not in line]
     assert len(lines) == 1, output
     assert lines[0].startswith("error: params.yaml: ")
     assert expected in lines[0]
+    assert not (repository.path / "data").exists()
     assert not (repository.path / "ran").exists()
 
 
@@ -65,74 +52,54 @@ def test_a_dry_run_imports_nothing_that_takes_seconds(
     fresh: Repository, tmp_path: Path, library: str
 ) -> None:
     (tmp_path / f"{library}.py").write_text("raise SystemExit('imported at the start')\n")
-    output = fresh.run("snakemake", "-n", PYTHONPATH=str(tmp_path))
-    assert "Job stats" in output
-
-
-@pytest.mark.parametrize("content", ["", "<<<<<<< HEAD\n", "[]", "{}"])
-def test_a_damaged_record_of_the_backbone_is_made_anew(
-    repository: Repository, monkeypatch: pytest.MonkeyPatch, content: str
-) -> None:
-    monkeypatch.delenv(WEIGHTS_VARIABLE, raising=False)
-    record = Path("data/backbone.json")
-    (repository.path / record).parent.mkdir(parents=True, exist_ok=True)
-    (repository.path / record).write_text(content)
-    assert repository.planned()["prepare_backbone"] == 1
-
-
-def test_a_cache_of_links_is_refused(repository: Repository) -> None:
-    repository.dvc("config", "cache.type", "hardlink")
-    output = repository.run("snakemake", "-n", check=False)
-    assert "error: " in output
-    assert "dvc config cache.type reflink,copy" in output
+    assert "Job stats" in fresh.run("snakemake", "-n", PYTHONPATH=str(tmp_path))
 
 
 def test_jobs_start_only_for_who_holds_the_folder(repository: Repository) -> None:
     """Whoever else reads the workflow meanwhile leaves alone what a run has at work."""
-    target = "data/objects/mug/visual.glb"
-    mine = [".snakemake/locks/0.output.lock", "data/objects/mug/.live.1.tmp"]
-    for path in (repository.path / name for name in mine):
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text("data/objects/banana/visual.glb")
+    half = repository.path / "data/objects/mug/.live.1.tmp"
+    half.parent.mkdir(parents=True)
+    half.touch()
     lock = FolderLock(repository.path / ".snakemake")
     assert lock.take()
     message = f"another run holds this folder: process {os.getpid()}"
-    assert message in repository.run("snakemake", "-n", target)
-    assert all((repository.path / name).exists() for name in mine)
-    assert message in repository.run("snakemake", "-j1", target, check=False)
-    assert not (repository.path / target).exists()
-    assert (repository.path / mine[1]).exists()  # Snakemake itself drops all of its own locks
+    assert message in repository.run("snakemake", "-n", OBJECT)
+    assert message in repository.run("snakemake", "-j1", OBJECT, check=False)
+    assert half.exists()
+    assert not (repository.path / OBJECT).exists()
     del lock
-    repository.run("snakemake", "-n", target)
-    assert not any((repository.path / name).exists() for name in mine)
+    repository.run("snakemake", "-n", OBJECT)
+    assert not half.exists()
 
 
-def test_scans_are_inputs_of_the_table_that_is_measured_with_them(
-    repository: Repository, tmp_path: Path
+@pytest.mark.parametrize(
+    ("statement", "reason"),
+    [
+        ("raise InputError('mesh.stl', 'faces', 'are missing')", "mesh.stl: faces: are missing"),
+        ("raise KeyError('mug')", "KeyError: 'mug'"),
+        ("raise OSError(28, 'No space left on device', 'a.npz')", "a.npz: No space left on device"),
+        ("raise MemoryError", "not enough memory for this job"),
+        ("sys.exit(3)", "ended without giving a reason"),
+        ("os.kill(os.getpid(), 9)", "ended without giving a reason, as if killed"),
+    ],
+)
+def test_a_job_that_fails_ends_with_its_reason(
+    repository: Repository, statement: str, reason: str
 ) -> None:
-    scan = tmp_path / "scans" / "mug.stl"
-    scan.parent.mkdir()
-    scan.touch()
-    named = {"GRASPTYPES_REFERENCE_MESHES": str(scan.parent)}
-    assert str(scan) in repository.run("snakemake", "compare_shapes", "--filegraph", **named)
+    script = repository.path / "workflow/scripts/prepare_object.py"
+    text = script.read_text()
+    main = text.index("    with job(snakemake.log)")
+    imports = "    import os, sys\n    from grasptypes.errors import InputError\n"
+    script.write_text(f"{text[:main]}{imports}    with job(snakemake.log):\n        {statement}\n")
+    output = repository.run("snakemake", "-j1", OBJECT, check=False)
+    assert f"\nerror: prepare_object/mug: {reason}" in output
+    assert output.index(f"error: prepare_object/mug: {reason}") > output.index("Error in rule")
 
 
-def tool(name: str) -> str:
-    path = shutil.which(name, path=str(Path(sys.executable).parent))
-    assert path is not None, f"{name} is not installed"
-    return path
-
-
-def test_workflow_is_linted_and_formatted() -> None:
-    for command in (
-        [tool("snakemake"), "--lint"],
-        [tool("snakefmt"), "--check", "Snakefile", "workflow"],
-    ):
-        result = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
-        assert result.returncode == 0, result.stdout + result.stderr
-
-
-def test_every_rule_that_runs_a_script_hashes_that_script() -> None:
+def test_workflow_is_linted_and_every_script_is_hashed() -> None:
+    command = [sys.executable, "-m", "snakemake", "--lint"]
+    result = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
+    assert result.returncode == 0, result.stdout + result.stderr
     rules = "\n".join(path.read_text() for path in sorted((ROOT / "workflow/rules").glob("*.smk")))
     for script in sorted((ROOT / "workflow/scripts").glob("*.py")):
         assert f'"../scripts/{script.name}"' in rules, f"no rule runs {script.name}"

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any
 
 import mlflow
 import numpy as np
@@ -31,13 +30,10 @@ class GraspTypePredictor(PythonModel):
         weights = weights_file(backbone, "model", artifacts["weights"])
         self._predictor = load_predictor(artifacts["tensors"], artifacts["card"], weights)
 
-    def predict(  # type: ignore[no-untyped-def]  # MLflow takes a hint here as a schema
-        self,
-        context: PythonModelContext,
-        model_input,
-        params: dict[str, Any] | None = None,
-    ) -> dict[str, np.ndarray]:
+    def predict(self, context, model_input, params=None):  # type: ignore[no-untyped-def]
         """Softmax and sigmoid of each picture's logits; pictures are padded to squares.
+
+        MLflow would take type hints for a schema.
 
         Args:
             model_input: ``image`` (N, H, W, 3) uint8 and ``task`` (N,) names.

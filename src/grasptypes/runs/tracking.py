@@ -42,12 +42,8 @@ SERVING_PACKAGES = (
     *("pydantic", "safetensors", "scipy", "torch", "torchvision"),
 )
 # Images of any size, and a task for each.
-PREDICTOR_INPUTS = Schema(
-    [
-        TensorSpec(np.dtype(np.uint8), (-1, -1, -1, 3), "image"),
-        TensorSpec(np.dtype(str), (-1,), "task"),
-    ]
-)
+IMAGES = TensorSpec(np.dtype(np.uint8), (-1, -1, -1, 3), "image")
+PREDICTOR_INPUTS = Schema([IMAGES, TensorSpec(np.dtype(str), (-1,), "task")])
 _BATCH = 1000  # the most metrics MLflow takes at once
 _PARAM_LENGTH = 6000  # the longest parameter MLflow takes
 
@@ -55,9 +51,7 @@ _PARAM_LENGTH = 6000  # the longest parameter MLflow takes
 class Store:
     """An MLflow store in one SQLite file, written by one process at a time.
 
-    Args:
-        settings: the file, whose folder also takes the models, the experiment, and the patience
-            with a store that somebody else is writing.
+    Its folder also takes the models.
     """
 
     def __init__(self, settings: TrackingSettings) -> None:

@@ -1,11 +1,9 @@
 """How each result was made, in one file that DVC versions along with the results.
 
-Snakemake keeps a record of every result in ``.snakemake``: with times, and for whatever was ever
-asked for. What decides whether a result is stale is written to ``data/provenance.json``, without
-times and for DVC's outs alone, so that it depends on the results only. A checkout that got its
-results from DVC turns it into Snakemake's records again.
-
-``python -m grasptypes.versions.provenance`` writes the file for the current folder.
+Snakemake keeps records in ``.snakemake``, with times, of all that was ever asked for. What decides
+whether a result is stale goes to ``data/provenance.json``, without times and for DVC's outs alone,
+so that it depends on the results only (``python -m grasptypes.versions.provenance`` writes it). A
+checkout that got its results from DVC turns it into Snakemake's records again.
 """
 
 from __future__ import annotations
@@ -29,14 +27,8 @@ ADOPTED = ".snakemake/adopted_provenance"
 FILE_HASHES = ".snakemake/file_hashes.json"
 # What Snakemake compares; the format says how.
 COMPARED = (
-    "rule",
-    "input",
-    "input_checksums",
-    "params",
-    "code",
-    "shellcmd",
-    "software_stack_hash",
-    "record_format_version",
+    *("rule", "input", "input_checksums", "params", "code", "shellcmd"),
+    *("software_stack_hash", "record_format_version"),
 )
 
 
