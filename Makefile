@@ -53,7 +53,7 @@ test-slurm: setup ## the small configuration on a Slurm cluster of this machine 
 bad-input: setup ## try every mistake a user can make and write docs/bad_input.md
 	python -W ignore tests/bad_input/table.py
 
-verify: setup ## compute everything twice from nothing, -j1 and -j2, and compare every file; VERIFY="--params tests/small.yaml"
+verify: setup ## compute everything twice from nothing, -j1 and -j2, and compare every file; VERIFY=tests/small.yaml
 	rm -rf build/verify
 	python tests/workflow/verify.py build/verify $(VERIFY)
 

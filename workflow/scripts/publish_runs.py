@@ -5,8 +5,7 @@ from pathlib import Path
 from grasptypes.files import write_json
 from grasptypes.jobs import job
 from grasptypes.runs.publishing import publish
-from grasptypes.runs.run_records import TrainedModel
-from grasptypes.runs.tracking import Store
+from grasptypes.runs.tracking import Store, TrainedModel
 from grasptypes.settings.commands import TrackingSettings
 from grasptypes.versions.provenance import times_ms
 

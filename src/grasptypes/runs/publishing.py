@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import json
 import logging
 import shutil
 import subprocess
@@ -10,13 +11,16 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+import pandas as pd
+
 from grasptypes.downloads import file_sha256
 from grasptypes.errors import InputError
 from grasptypes.predictors.features import read_pictures
 from grasptypes.predictors.learning_inputs import read_backbone_record, recorded_weights
 from grasptypes.predictors.metrics import METRICS
-from grasptypes.runs.run_records import TrainedModel, run_record
-from grasptypes.runs.tracking import Store
+from grasptypes.predictors.scoring import CURVE_SCHEMA, METRIC_SCHEMA
+from grasptypes.runs.tracking import RunRecord, Store, TrainedModel
+from grasptypes.tables import read_table
 
 logger = logging.getLogger("grasptypes")
 
@@ -49,14 +53,66 @@ def publish(
         logger.warning("runs are published without their predictors: %s", error)
     for model in models:
         record = run_record(model, settings, tags)
-        with store.opened() as opened:
-            opened.offer_view(METRICS)
-            run = opened.upsert(record)
+        with store.opened():
+            store.offer_view(METRICS)
+            run = store.upsert(record)
             if weights is not None:
-                opened.log_model(run, model, weights.path, read_pictures(data["renders"][0])[0])
+                store.log_model(run, model, weights.path, read_pictures(data["renders"][0])[0])
         logger.info("%s: %d runs", record.name, 1 + len(record.children))
         keys[record.name] = record.key
     return keys
+
+
+def run_record(
+    model: TrainedModel, settings: Mapping[str, Any], tags: Mapping[str, str]
+) -> RunRecord:
+    """The parent run of a model and label source, with its folds and seeds as children.
+
+    The keys are made from the tables and the settings alone: the same results are the same runs,
+    in whatever store, checkout or order they are published.
+
+    Args:
+        settings: what it was trained with, nested as section ``predictors`` of params.yaml.
+        tags: what is no part of the result, such as the commit; kept as it is when a run is new.
+    """
+    metrics = read_table(model.metrics, METRIC_SCHEMA)
+    curves = read_table(model.curves, CURVE_SCHEMA)
+    first = metrics.iloc[0]
+    fixed = ("labels", "model", "backbone", "weights", "finetune")
+    flat = pd.json_normalize(dict(settings)).to_dict("records")[0]
+    params = {name: str(value) for name, value in {**first[list(fixed)], **flat}.items()}
+    shown = json.dumps(params, sort_keys=True).encode()
+    key = _digest(model.metrics.read_bytes(), model.curves.read_bytes(), shown)
+    children = []
+    for row in metrics.to_dict("records"):
+        fold, seed = str(row["group"]), str(row["seed"])
+        own = curves[(curves["group"].astype(str) == fold) & (curves["seed"] == row["seed"])]
+        child = RunRecord(
+            key=_digest(key.encode(), fold.encode(), seed.encode()),
+            name=f"fold {fold}, seed {seed}",
+            times_ms=model.times_ms,
+            params={**params, "fold": fold, "seed_number": seed},
+            metrics={name: float(row[name]) for name in METRICS},
+            curves=_losses(own),
+            tags=tags,
+        )
+        children.append(child)
+    # Named as the folds' own, so that the UI shows both in one column.
+    summary = {name: float(metrics[name].mean()) for name in METRICS}
+    summary |= {f"{name}_sd": float(metrics[name].std()) for name in METRICS}
+    losses = _losses(curves.groupby("epoch").mean(numeric_only=True))
+    name = f"{first['labels']} {first['model']}"
+    return RunRecord(key, name, model.times_ms, params, summary, losses, tags, children)
+
+
+def _losses(table: pd.DataFrame) -> dict[str, list[float]]:
+    return {name: table[name].tolist() for name in ("train_loss", "test_loss")}
+
+
+def _digest(*parts: bytes) -> str:
+    return hashlib.sha256(b"".join(hashlib.sha256(part).digest() for part in parts)).hexdigest()[
+        :32
+    ]
 
 
 def version_tags(data: Mapping[str, Sequence[Path]]) -> dict[str, str]:
@@ -65,16 +121,10 @@ def version_tags(data: Mapping[str, Sequence[Path]]) -> dict[str, str]:
     for name, paths in data.items():
         listing = "".join(f"{file_sha256(path)}  {path.name}\n" for path in sorted(paths))
         tags[f"sha256.{name}"] = hashlib.sha256(listing.encode()).hexdigest()
-    commit = _git("rev-parse", "HEAD")
-    if commit:
-        tags["mlflow.source.git.commit"] = commit
-        tags["git.dirty"] = str(bool(_git("status", "--porcelain", "--untracked-files=no")))
+    if shutil.which("git") is not None:
+        command = ["git", "describe", "--always", "--exclude=*", "--abbrev=40", "--dirty"]
+        run = subprocess.run(command, capture_output=True, text=True, check=False)
+        commit = run.stdout.strip()  # empty outside a checkout
+        tags["mlflow.source.git.commit"] = commit.removesuffix("-dirty")
+        tags["git.dirty"] = str(commit.endswith("-dirty"))
     return tags
-
-
-def _git(*arguments: str) -> str:
-    """What git prints; empty outside a checkout, or without git."""
-    if shutil.which("git") is None:
-        return ""
-    command = ["git", *arguments]
-    return subprocess.run(command, capture_output=True, text=True, check=False).stdout.strip()

@@ -42,8 +42,7 @@ class GraspTypePredictor(PythonModel):
             ``probability`` and ``sigmoid``, (N, types) float32 each.
 
         Raises:
-            MlflowException: an unknown task, not one task a picture, or pictures that are too
-                small or have values from 0 to 1.
+            MlflowException: what is asked cannot be answered.
         """
         pictures = np.asarray(model_input["image"], dtype=np.uint8)
         tasks = np.asarray(model_input["task"]).astype(str).reshape(-1)

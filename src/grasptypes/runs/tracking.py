@@ -10,7 +10,8 @@ import contextlib
 import json
 import os
 import sqlite3
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from importlib.metadata import version
 from pathlib import Path
 
@@ -27,7 +28,6 @@ import grasptypes.errors
 from grasptypes.downloads import file_sha256
 from grasptypes.errors import InputError
 from grasptypes.predictors.predictor_files import read_card
-from grasptypes.runs.run_records import RunRecord, TrainedModel
 from grasptypes.settings.commands import TrackingSettings
 
 KEY_TAG = "grasptypes.key"
@@ -48,6 +48,32 @@ _BATCH = 1000  # the most metrics MLflow takes at once
 _PARAM_LENGTH = 6000  # the longest parameter MLflow takes
 
 
+@dataclass(frozen=True)
+class TrainedModel:
+    """The files of one training job, and when it began and ended (milliseconds since 1970)."""
+
+    metrics: Path
+    curves: Path
+    tensors: Path
+    card: Path
+    times_ms: tuple[int, int]
+
+
+@dataclass(frozen=True)
+class RunRecord:
+    """What a run shows. A run with the same key, which is made from its content, is updated."""
+
+    key: str
+    name: str
+    times_ms: tuple[int, int]
+    params: Mapping[str, str]
+    metrics: Mapping[str, float]
+    curves: Mapping[str, Sequence[float]]
+    """A value an epoch, the first epoch is 1."""
+    tags: Mapping[str, str]
+    children: Sequence[RunRecord] = ()
+
+
 class Store:
     """An MLflow store in one SQLite file, written by one process at a time.
 
@@ -61,8 +87,8 @@ class Store:
         self.uri = f"sqlite:///{self.database}"
 
     @contextlib.contextmanager
-    def opened(self) -> Iterator[OpenStore]:
-        """The store for writing; others wait. The lock ends with the process, however it ends.
+    def opened(self) -> Iterator[None]:
+        """Write within; others wait. The lock ends with the process, however it ends.
 
         MLflow itself fails when two processes create the tables of a new file together, and tries
         for more than an hour to open a file that is locked or damaged.
@@ -76,8 +102,9 @@ class Store:
             with FileLock(self.database.with_suffix(".lock"), timeout=self.patience_s):
                 self._check_writable()
                 mlflow.set_tracking_uri(self.uri)
-                client = mlflow.MlflowClient(self.uri)
-                yield OpenStore(client, self._experiment_of(client))
+                self._client = mlflow.MlflowClient(self.uri)
+                self._experiment = self._found_or_made()
+                yield
         except (OSError, sqlite3.Error, MlflowException, SQLAlchemyError) as error:
             reason = str(error).split("\n")[0]
             later = "results do not depend on it; show them later with: make publish"
@@ -85,35 +112,9 @@ class Store:
 
     def page(self) -> str:
         """Where MLflow's UI shows the runs with the measures as columns, below its own address."""
-        with self.opened() as opened:
+        with self.opened():
             query = f"workflowType=machine_learning&viewStateShareKey={VIEW}"
-            return f"#/experiments/{opened.experiment}/runs?{query}"
-
-    def _check_writable(self) -> None:
-        """Begin to write, and leave it at that."""
-        with contextlib.closing(sqlite3.connect(self.database, timeout=self.patience_s)) as probe:
-            probe.isolation_level = None
-            # A table, since SQLite touches neither file nor journal before something changes.
-            probe.execute("BEGIN IMMEDIATE")
-            probe.execute("CREATE TABLE grasptypes_probe (a)")
-            probe.execute("ROLLBACK")
-
-    def _experiment_of(self, client: mlflow.MlflowClient) -> str:
-        found = client.get_experiment_by_name(self.experiment)
-        if found:
-            if found.lifecycle_stage == LifecycleStage.DELETED:  # in the UI
-                client.restore_experiment(found.experiment_id)
-            return str(found.experiment_id)
-        folder = self.database.parent / "mlruns"
-        return str(client.create_experiment(self.experiment, artifact_location=folder.as_uri()))
-
-
-class OpenStore:
-    """The operations on an opened store."""
-
-    def __init__(self, client: mlflow.MlflowClient, experiment: str) -> None:
-        self._client = client
-        self.experiment = experiment
+            return f"#/experiments/{self._experiment}/runs?{query}"
 
     def upsert(self, record: RunRecord, parent: str | None = None) -> str:
         """Write a run and its children; returns its id.
@@ -121,14 +122,14 @@ class OpenStore:
         A run that is there keeps its tags: later commits and data are not those it was made from.
         """
         query = f"tags.`{KEY_TAG}` = '{record.key}'"
-        found = self._client.search_runs([self.experiment], query, max_results=1)
+        found = self._client.search_runs([self._experiment], query, max_results=1)
         if found:
             run = found[0]
         else:
             tags = {**record.tags, KEY_TAG: record.key, "mlflow.runName": record.name}
             tags |= {"mlflow.parentRunId": parent} if parent else {}
             start_ms = record.times_ms[0]
-            run = self._client.create_run(self.experiment, start_time=start_ms, tags=tags)
+            run = self._client.create_run(self._experiment, start_time=start_ms, tags=tags)
         identity = run.info.run_id
         if run.info.status != "FINISHED":
             # The run's own times: when an interrupted call is repeated, no value is there twice.
@@ -141,7 +142,7 @@ class OpenStore:
     def offer_view(self, metrics: Sequence[str]) -> None:
         """Keep a view of the runs that has these metrics as columns."""
         state = json.dumps({"selectedColumns": [f"metrics.`{name}`" for name in metrics]})
-        self._client.set_experiment_tag(self.experiment, VIEW_TAG, state)
+        self._client.set_experiment_tag(self._experiment, VIEW_TAG, state)
 
     def log_model(self, run: str, model: TrainedModel, weights: Path, picture: np.ndarray) -> None:
         """Log a servable predictor with a run, unless the same one is there.
@@ -157,7 +158,7 @@ class OpenStore:
             return
         # Halves of calls that were cut off, or older ones.
         mine = f"source_run_id = '{run}'"
-        for old in self._client.search_logged_models([self.experiment], filter_string=mine):
+        for old in self._client.search_logged_models([self._experiment], filter_string=mine):
             self._client.delete_logged_model(old.model_id)
         card = read_card(model.card)
         names, shape = ("probability", "sigmoid"), (-1, len(card.types))
@@ -175,6 +176,24 @@ class OpenStore:
             )
         self._client.set_terminated(run, known.info.status, end_time=known.info.end_time)
         self._client.set_tag(run, MODEL_TAG, key)
+
+    def _check_writable(self) -> None:
+        """Begin to write, and leave it at that."""
+        with contextlib.closing(sqlite3.connect(self.database, timeout=self.patience_s)) as probe:
+            probe.isolation_level = None
+            # A table, since SQLite touches neither file nor journal before something changes.
+            probe.execute("BEGIN IMMEDIATE")
+            probe.execute("CREATE TABLE grasptypes_probe (a)")
+            probe.execute("ROLLBACK")
+
+    def _found_or_made(self) -> str:
+        found = self._client.get_experiment_by_name(self.experiment)
+        if found is None:
+            place = (self.database.parent / "mlruns").as_uri()
+            return str(self._client.create_experiment(self.experiment, artifact_location=place))
+        if found.lifecycle_stage == LifecycleStage.DELETED:  # in the UI
+            self._client.restore_experiment(found.experiment_id)
+        return str(found.experiment_id)
 
     def _write(self, run: str, record: RunRecord, stamp_ms: int) -> None:
         params = [Param(name, value[:_PARAM_LENGTH]) for name, value in record.params.items()]

@@ -21,9 +21,8 @@ from grasptypes.predictors.metrics import METRICS
 from grasptypes.predictors.scoring import CURVE_SCHEMA, METRIC_SCHEMA
 from grasptypes.predictors.weights import WEIGHTS_VARIABLE
 from grasptypes.runs import ui
-from grasptypes.runs.publishing import publish, version_tags
-from grasptypes.runs.run_records import RunRecord, TrainedModel, run_record
-from grasptypes.runs.tracking import KEY_TAG, Store
+from grasptypes.runs.publishing import publish, run_record, version_tags
+from grasptypes.runs.tracking import KEY_TAG, RunRecord, Store, TrainedModel
 from grasptypes.settings.commands import TrackingSettings
 from grasptypes.tables import write_table
 
@@ -142,10 +141,10 @@ def test_runs_name_the_commit_and_the_data(data, tmp_path, monkeypatch):
 
 def test_an_interrupted_call_is_finished_without_doubling(store):
     client = mlflow.MlflowClient(store.uri)
-    with store.opened() as opened:
-        run = client.create_run(opened.experiment, start_time=1000, tags={KEY_TAG: "key"})
-        opened._write(run.info.run_id, RUN, 1000)  # killed before it was marked as finished
-        assert opened.upsert(RUN) == run.info.run_id
+    with store.opened():
+        run = client.create_run(store._experiment, start_time=1000, tags={KEY_TAG: "key"})
+        store._write(run.info.run_id, RUN, 1000)  # killed before it was marked as finished
+        assert store.upsert(RUN) == run.info.run_id
     history = client.get_metric_history(run.info.run_id, "loss")
     assert [(metric.step, metric.value) for metric in history] == [(1, 3), (2, 2)]
     client.delete_run(run.info.run_id)
@@ -154,8 +153,8 @@ def test_an_interrupted_call_is_finished_without_doubling(store):
 def test_an_experiment_that_was_deleted_in_the_ui_is_restored(store):
     client = mlflow.MlflowClient(store.uri)
     client.delete_experiment(client.get_experiment_by_name("test").experiment_id)
-    with store.opened() as opened:
-        assert client.get_experiment(opened.experiment).lifecycle_stage == "active"
+    with store.opened():
+        assert client.get_experiment(store._experiment).lifecycle_stage == "active"
 
 
 def test_the_ui_opens_on_this_machine_alone_at_the_runs(store, monkeypatch, capsys):
@@ -172,7 +171,7 @@ def test_two_processes_on_a_new_file(tmp_path):
     code = (
         "import sys; sys.path[:0] = sys.argv[2:]\n"
         "from test_publishing import RUN, store_in\n"
-        "with store_in(sys.argv[1]).opened() as opened: opened.upsert(RUN)\n"
+        "store = store_in(sys.argv[1])\nwith store.opened(): store.upsert(RUN)\n"
     )
     here = Path(__file__)
     paths = [str(path) for path in (here.parent, here.parents[1], here.parents[3] / "src")]

@@ -18,8 +18,8 @@ from test_publishing import RUN, TIMES_MS, store_in
 
 from grasptypes.predictors.predictor_files import load_predictor
 from grasptypes.renders.photos import padded
-from grasptypes.runs.run_records import TrainedModel
 from grasptypes.runs.serving import MIN_PX
+from grasptypes.runs.tracking import TrainedModel
 from grasptypes.settings.params import read_params
 
 # Importing torch and MLflow on a busy machine.
@@ -36,10 +36,10 @@ def logged(tmp_path_factory):
     small_predictor(root, weights)
     card, tensors = root / "predictor.json", root / "predictor.safetensors"
     model, store = TrainedModel(root, root, tensors, card, TIMES_MS), store_in(root)
-    with store.opened() as opened:
-        run = opened.upsert(RUN)
+    with store.opened():
+        run = store.upsert(RUN)
         for _ in range(2):  # not logged twice
-            opened.log_model(run, model, weights.path, PICTURES[0])
+            store.log_model(run, model, weights.path, PICTURES[0])
     client = mlflow.MlflowClient(store.uri)
     assert client.get_run(run).info.end_time == TIMES_MS[1]  # of the training
     (found,) = client.search_logged_models([client.get_experiment_by_name("test").experiment_id])
