@@ -40,7 +40,7 @@ def measured(
         needed, maker = PARTS[part]
         try:
             if not Path(needed).exists():
-                raise NotReady(f"{needed} is missing; {maker} makes it")
+                raise NotReady(f"{needed} is missing; make it with: {maker}")
             for found in importlib.import_module(f"benchmarks.{part}").measure(
                 settings[part], params
             ):

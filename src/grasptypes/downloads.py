@@ -61,7 +61,7 @@ def _opened(url: str, timeout_s: float) -> IO[bytes]:
     behind when it takes too long.
     """
     if not url.startswith(("http://", "https://")):
-        raise DownloadError(f"{url} is no http or https address")
+        raise DownloadError(f"{url} is not an http or https URL")
     answers: queue.SimpleQueue[IO[bytes] | Exception] = queue.SimpleQueue()
     threading.Thread(target=_ask, args=(url, timeout_s, answers), daemon=True).start()
     try:
@@ -84,4 +84,4 @@ def _copy(url: str, response: IO[bytes], file: IO[bytes]) -> None:
     try:
         shutil.copyfileobj(response, file)
     except _FAILURES as error:
-        raise DownloadError(f"{url} broke off: {' '.join(str(error).split())}") from error
+        raise DownloadError(f"{url} was interrupted: {' '.join(str(error).split())}") from error

@@ -40,7 +40,7 @@ def job(log: Sequence[str]) -> Iterator[logging.Logger]:
         logging.raiseExceptions = False  # the log may lie on the same full disk
         if line is None:
             line = " ".join(f"{type(error).__name__}: {error}".split())
-            logger.info("unforeseen error", exc_info=error)
+            logger.info("unexpected error", exc_info=error)
         logger.error("%s", line)
         sys.stderr.write(f"error: {line}\n")
         sys.exit(1)

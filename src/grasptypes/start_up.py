@@ -32,7 +32,7 @@ def check_start(
         InputError: the first mistake.
     """
     if set(str(root)) & set("{}"):
-        raise InputError(root, "", "Snakemake takes braces for wildcards; move the checkout")
+        raise InputError(root, "", "Snakemake treats braces as wildcards; move the checkout")
     check_cache_links(root)
     objects, tasks, table = params.objects, list(params.tasks), params.contact_maps.affinities
     check_own_objects(objects)

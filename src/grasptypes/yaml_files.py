@@ -25,11 +25,11 @@ class _StrictLoader(_SafeLoader):
         for key_node, _ in node.value:
             problem, kind = "", key_node.tag.split(":")[-1]
             if kind == "merge":
-                problem = "'<<' is not taken: write the keys out"
+                problem = "'<<' is not supported: write the keys out"
             elif kind != "str":
                 problem = f"a key must be text (quote it), not {kind}"
             elif key_node.value in seen:
-                problem = f"key '{key_node.value}' is there twice"
+                problem = f"duplicate key '{key_node.value}'"
             if problem:
                 raise yaml.constructor.ConstructorError(None, None, problem, key_node.start_mark)
             seen.add(key_node.value)
@@ -40,7 +40,7 @@ class _StrictLoader(_SafeLoader):
         try:
             return super().construct_object(node, deep)
         except (ValueError, KeyError, AttributeError) as error:  # such as 2020-99-99, !!bool x
-            problem = f"'{node.value}' is not what {node.tag.split(':')[-1]} looks like"
+            problem = f"'{node.value}' is not a valid {node.tag.split(':')[-1]}"
             raise yaml.constructor.ConstructorError(None, None, problem, node.start_mark) from error
 
 
@@ -67,7 +67,7 @@ def read_yaml(path: str | Path) -> dict[str, Any]:
         problem = getattr(error, "problem", None) or str(error)
         raise InputError(path, line, f"not valid YAML: {problem}") from error
     if not isinstance(content, dict):
-        raise InputError(path, "", "must hold a mapping of sections, such as 'objects:'")
+        raise InputError(path, "", "must contain a mapping of sections, such as 'objects:'")
     return content
 
 
@@ -89,4 +89,4 @@ def _check_depth(path: Path, text: str) -> None:
         depth += isinstance(event, yaml.CollectionStartEvent)
         depth -= isinstance(event, yaml.CollectionEndEvent)
         if depth > DEEPEST:
-            raise InputError(path, "", f"not valid YAML: nested too deeply, over {DEEPEST} levels")
+            raise InputError(path, "", f"not valid YAML: nested more than {DEEPEST} levels deep")

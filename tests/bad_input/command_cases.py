@@ -62,7 +62,7 @@ CASES = [
         "a bad picture in a folder",
         FOLDER | {"cups/a.png": WHOLE, "cups/b.png": "no picture"},
         command("predict", "--image", "cups", "--task", "use"),
-        ("cups/b.png: not a picture",),
+        ("cups/b.png: not an image",),
     ),
     asked(
         "a drawing where none can be made",
@@ -82,9 +82,9 @@ CASES = [
         library(lambda changes: copy_checkout(ROOT, "copy", changes), "small.yaml"),
         ("small.yaml", "line 2"),
     ),
-    exchanged("no XML", "world.xml", "<world>", read_world, "no GraspIt! world"),
+    exchanged("no XML", "world.xml", "<world>", read_world, "not a GraspIt! world"),
     exchanged("a world without a hand", "world.xml", "<world/>", read_world, "one Barrett robot"),
-    exchanged("no JSON", "grasps.json", "{", read_grasps, "is no JSON file"),
+    exchanged("no JSON", "grasps.json", "{", read_grasps, "is not a JSON file"),
     exchanged(
         "another gripper",
         "grasps.json",
@@ -92,6 +92,8 @@ CASES = [
         read_grasps,
         "gripper",
     ),
-    exchanged("a pickle with code", "grasp.npy", with_code, read_grasp, "no array"),
-    exchanged("a pickle alone", "grasp.npy", pickle.dumps(Code()), read_grasp, "no grasp"),
+    exchanged("a pickle with code", "grasp.npy", with_code, read_grasp, "not an array"),
+    exchanged(
+        "a pickle alone", "grasp.npy", pickle.dumps(Code()), read_grasp, "not a DexGraspBench grasp"
+    ),
 ]

@@ -41,21 +41,21 @@ STILL = Image.fromarray(NOISE)
 TWO = {"save_all": True, "append_images": [Image.fromarray(NOISE[::-1])]}
 WHOLE = encoded(Image.fromarray(NOISE))
 CASES = [
-    picture("empty", b"", "not a picture"),
-    picture("text named .png", "a cup\n", "not a picture"),
-    picture("truncated", WHOLE[: len(WHOLE) // 2], "cannot be read as a picture"),
-    picture("damaged", WHOLE[:60] + bytes(20) + WHOLE[80:], "cannot be read as a picture"),
-    picture("too small", encoded(Image.new("RGB", (1, 1))), "1 x 1 pixels", "needs 32"),
-    picture("too large", encoded(Image.new("1", (20_000, 10_000))), "110 million pixels at most"),
+    picture("empty", b"", "not an image"),
+    picture("text named .png", "a cup\n", "not an image"),
+    picture("truncated", WHOLE[: len(WHOLE) // 2], "cannot be read as an image"),
+    picture("damaged", WHOLE[:60] + bytes(20) + WHOLE[80:], "cannot be read as an image"),
+    picture("too small", encoded(Image.new("RGB", (1, 1))), "1 x 1 pixels", "at least 32"),
+    picture("too large", encoded(Image.new("1", (20_000, 10_000))), "limit of 110 million pixels"),
     picture("an alpha channel", encoded(Image.fromarray(NOISE).convert("RGBA")), "alpha channel"),
-    picture("an animation", encoded(STILL, "gif", **TWO), "several pictures", name="cup.gif"),
-    picture("several pages", encoded(STILL, "tiff", **TWO), "several pictures", name="cup.tif"),
+    picture("an animation", encoded(STILL, "gif", **TWO), "several images", name="cup.gif"),
+    picture("several pages", encoded(STILL, "tiff", **TWO), "several images", name="cup.tif"),
     picture(
         "16 bits a channel",
         encoded(Image.fromarray(NOISE[..., 0].astype(np.uint16) * 256)),
         "8 bits",
     ),
     picture(
-        "a format that runs a program", "%!PS-Adobe-3.0 EPSF-3.0\n", "not a picture", name="cup.eps"
+        "a format that runs a program", "%!PS-Adobe-3.0 EPSF-3.0\n", "not an image", name="cup.eps"
     ),
 ]

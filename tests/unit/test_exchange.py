@@ -85,8 +85,8 @@ def test_graspit_world_as_graspit_writes_it(tmp_path):
     [
         ("Barrett", "Shadow", "one Barrett robot"),
         ("<dofValues>", "<dofValues>1 ", "11 numbers"),
-        ("<fullTransform>(", "<fullTransform>[", "is no pose"),
-        ("</world>", "", "no GraspIt! world"),
+        ("<fullTransform>(", "<fullTransform>[", "is not a pose"),
+        ("</world>", "", "not a GraspIt! world"),
     ],
 )
 def test_bad_graspit_world(tmp_path, old, new, message):

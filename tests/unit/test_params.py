@@ -23,13 +23,16 @@ def test_the_parameters_of_the_project_are_allowed():
     ("change", "line"),
     [
         ({"tasks": {"use": {"color_shift": 10}}}, "tasks.use: 'color_shift' is not a known key"),
-        ({"seed": "one"}, "seed: 'one' is not a whole number (whole number, part of the key"),
+        ({"seed": "one"}, "seed: 'one' is not an integer (whole number, part of the key"),
         ({"seed": -1}, "seed: -1 is less than the minimum of 0 ("),
         ({"tasks": ["use"]}, "tasks: ['use'] is not a mapping"),
         ({"tasks": {"use": {"colour_shift": 999}}}, "tasks.use.colour_shift: 999 is greater than"),
-        ({"tasks": {"Bad Name": {"colour_shift": 1}}}, "tasks: 'Bad Name' is no name: use"),
+        ({"tasks": {"Bad Name": {"colour_shift": 1}}}, "tasks: 'Bad Name' is invalid: use"),
         ({"tasks": {"none": {"colour_shift": 1}}}, "tasks.none: 'none' stands for no task"),
-        ({"tasks": {"give": {"colour_shift": 10}}}, "tasks.give.colour_shift: 10 is that of use"),
+        (
+            {"tasks": {"give": {"colour_shift": 10}}},
+            "tasks.give.colour_shift: 10 is also that of use",
+        ),
         ({"objects": {"scale": 0}}, "objects.scale: 0 is not greater than 0 (size relative to"),
         ({"objects": {"names": ["mug", "pot"]}}, "objects.names.1: 'pot' is not in the catalogue"),
         ({"objects": {"names": []}}, "objects.names: is empty, and so is objects.own"),
@@ -101,9 +104,9 @@ def test_settings_import_no_heavy_library():
 @pytest.mark.parametrize(
     ("text", "problem"),
     [
-        (b"", "must hold a mapping"),
-        (b"- a\n- b\n", "must hold a mapping"),
-        (b"seed: 1\nseed: 2\n", "line 2: .*'seed' is there twice"),
+        (b"", "must contain a mapping"),
+        (b"- a\n- b\n", "must contain a mapping"),
+        (b"seed: 1\nseed: 2\n", "line 2: .*duplicate key 'seed'"),
         (b"seed: [1\n", "not valid YAML"),
         (b"seed: !!python/object/apply:os.system [ls]\n", "not valid YAML"),
         (b"\xff\xfe\x00", "UTF-8"),

@@ -11,7 +11,7 @@ ready=$venv/.ready
 
 case $PWD in
     *[{}]*)
-        echo "error: Snakemake cannot work in '$PWD': it takes braces for wildcards" >&2
+        echo "error: Snakemake cannot work in '$PWD': it treats braces as wildcards" >&2
         exit 1
         ;;
 esac

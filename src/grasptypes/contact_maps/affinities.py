@@ -97,7 +97,7 @@ def read_affinities(
             table.setdefault((row["object"], row["task"]), []).append(hold)
     for key, holds in table.items():
         if sum(hold.affinity for hold in holds) <= 0:
-            raise InputError(path, "affinity", f"every row of {' and '.join(key)} is zero")
+            raise InputError(path, "affinity", f"is zero in every row of {' and '.join(key)}")
     return {key: tuple(holds) for key, holds in table.items()}
 
 
@@ -135,7 +135,7 @@ def _hold(path: Path, line: int, row: Mapping[str, Any]) -> Hold:
         reason=row["reason"].strip(),
     )
     if not hold.reason:
-        raise InputError(path, f"line {line}, reason", "must say why people hold it so")
+        raise InputError(path, f"line {line}, reason", "must say why people hold it this way")
     return hold
 
 

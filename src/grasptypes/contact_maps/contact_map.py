@@ -145,7 +145,8 @@ def draw_session(
     raise InputError(
         params["affinities"],
         f"{key[0]}, {key[1]}, {'+'.join(hold.parts) or WHOLE}, {hold.grip} {hold.approach}",
-        f"{params['tries']} people could not hold it so: thumb and fingers found no two sides",
+        f"{params['tries']} people could not hold it this way: "
+        "thumb and fingers found no opposing sides",
     )
 
 

@@ -31,13 +31,13 @@ def read_contact_map(path: str | Path) -> ContactMap:
     arrays = read_npz(path)
     for field in fields(ContactMap):
         if field.name not in arrays:
-            raise InputError(path, field.name, "is missing; build the contact map anew")
+            raise InputError(path, field.name, "is missing; rebuild the contact map")
     contact_map = ContactMap(**{field.name: arrays[field.name] for field in fields(ContactMap)})
     _check_lengths(contact_map, path)
     for name in ("probability", "sessions"):
         values = getattr(contact_map, name)
         if not ((values >= 0) & (values <= 1)).all():
-            raise InputError(path, name, "has values that are not between 0 and 1")
+            raise InputError(path, name, "has values outside the range 0 to 1")
     return contact_map
 
 

@@ -52,20 +52,22 @@ def read_probability(
     """
     scan, measured = read_contact_scan(path, metres), params["measured"]
     if np.nanmin(scan.intensity) == np.nanmax(scan.intensity):
-        raise InputError(path, "red", "is the same wherever it is not 0: nothing is warmer")
+        raise InputError(
+            path, "red", "is the same wherever it is not 0: no place is warmer than another"
+        )
     seen = transferred(scan, points.points_m, measured)
     share = float(np.isfinite(seen).mean())
     if share < measured["min_seen_share"]:
         raise InputError(
             path,
             "",
-            f"shows {share:.0%} of the object (its vertices and {measured['max_gap_m']} m around), "
+            f"covers {share:.0%} of the object (within {measured['max_gap_m']} m of its vertices); "
             f"{measured['min_seen_share']:.0%} are needed: is it in the object's unit and frame?",
         )
     probability = np.nan_to_num(seen, nan=0.0)
     if (probability >= params["threshold"]).sum() < MIN_WARM_POINTS:
         raise InputError(
-            path, "red", f"is warm (probability {params['threshold']} or more) almost nowhere"
+            path, "red", f"has almost no warm vertices (probability {params['threshold']} or more)"
         )
     return probability
 
@@ -150,8 +152,9 @@ def draw_measured_session(
         raise InputError(
             path,
             "",
-            f"no hand can hold {key[0]} where it is to be touched: in "
-            f"{params['measured']['placements']} placements thumb and fingers found no two sides",
+            f"no hand can hold {key[0]} where the map is warm: in "
+            f"{params['measured']['placements']} placements thumb and fingers found no "
+            "opposing sides",
         )
     shares = np.cumsum(weights)
     return sessions[int(np.searchsorted(shares, draw.uniform(0.0, shares[-1]), side="right"))]

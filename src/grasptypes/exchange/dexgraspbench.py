@@ -38,7 +38,7 @@ class _ArrayUnpickler(pickle.Unpickler):
         """What arrays are made of, and nothing else that a pickle may name."""
         if module.split(".")[0] == "numpy" and name in _NUMPY:
             return super().find_class(module, name)
-        raise pickle.UnpicklingError(f"holds {module}.{name}, which is no array")
+        raise pickle.UnpicklingError(f"holds {module}.{name}, which is not an array")
 
 
 def write_grasp(
@@ -92,11 +92,11 @@ def _turned(angles: NDArray[np.float64], factor: float) -> NDArray[np.float64]:
 
 
 def _read(path: str | Path) -> dict[str, Any]:
-    with parsing(path, "is no grasp of DexGraspBench"), Path(path).open("rb") as file:
+    with parsing(path, "is not a DexGraspBench grasp"), Path(path).open("rb") as file:
         np.lib.format.read_magic(file)
         np.lib.format.read_array_header_1_0(file)
         content = _ArrayUnpickler(file).load()
     content = content.item() if isinstance(content, np.ndarray) and content.ndim == 0 else content
     if not isinstance(content, dict):
-        raise InputError(path, "", "holds no dictionary")
+        raise InputError(path, "", "does not contain a dictionary")
     return content

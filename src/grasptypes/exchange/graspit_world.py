@@ -57,7 +57,7 @@ def read_world(path: str | Path) -> PosedHands:
     Raises:
         InputError: not such a world.
     """
-    with parsing(path, "is no GraspIt! world"):
+    with parsing(path, "is not a GraspIt! world"):
         world = ElementTree.parse(path).getroot()
     body = world.find("graspableBody")
     robots = [
@@ -114,7 +114,7 @@ def _pose(path: str | Path, parent: ElementTree.Element) -> Array:
         turn, place = ([float(word) for word in group.split()] for group in groups)
         return from_position_quaternion([*(np.array(place) / MM), *turn])
     except ValueError as error:
-        message = f"{text!r} is no pose (w x y z)[x y z]"
+        message = f"{text!r} is not a pose (w x y z)[x y z]"
         raise InputError(path, f"{parent.tag}/transform/fullTransform", message) from error
 
 

@@ -55,7 +55,9 @@ def read_grasps(path: str | Path) -> PosedHands:
         poses = from_position_quaternion(content["pose"])
         dofs = np.asarray(content["dofs"], dtype=np.float64).reshape(len(poses), len(names))
     except (ValueError, TypeError) as error:
-        raise InputError(path, "pose, dofs", f"7 and 8 numbers a grasp: {error}") from error
+        raise InputError(
+            path, "pose, dofs", f"7 and 8 numbers per grasp are needed: {error}"
+        ) from error
     angles = dofs[:, [names.index(name) for name in JOINT_NAMES]]
     held = np.asarray(content.get("result", np.ones(len(poses))), dtype=float) > 0.5
     return PosedHands(str(content["object_id"]), poses, angles, held)
@@ -65,7 +67,7 @@ def _read(path: str | Path) -> dict[str, Any]:
     try:
         content = json.loads(Path(path).read_text(encoding="utf-8"))
     except (OSError, ValueError) as error:
-        raise InputError(path, "", f"is no JSON file: {error}") from error
+        raise InputError(path, "", f"is not a JSON file: {error}") from error
     missing = {"gripper", "object_id", "pose", "dofs"} - set(content)
     if missing:
         raise InputError(path, ", ".join(sorted(missing)), "is missing")

@@ -41,7 +41,7 @@ def read_contact_scan(path: str | Path, metres: float = 1.0) -> ContactScan:
     """
     path = Path(path)
     if path.suffix.lower() != ".ply":
-        raise InputError(path, "", "is no contact map: a PLY with a colour a vertex is needed")
+        raise InputError(path, "", "is not a contact map: a PLY with vertex colours is needed")
     if not path.is_file():
         raise InputError(path, "", "no such file")
     with parsing(path, "cannot be read as PLY"):
@@ -51,9 +51,9 @@ def read_contact_scan(path: str | Path, metres: float = 1.0) -> ContactScan:
     red = _red_channel(path, loaded)
     points_m = np.asarray(loaded.vertices, dtype=np.float64) * metres
     if not np.isfinite(points_m).all():
-        raise InputError(path, "", "some vertices are not finite numbers (NaN or infinite)")
+        raise InputError(path, "", "some vertices are not finite (NaN or infinite)")
     if not (red > 0).any():
-        raise InputError(path, "red", "is 0 at every vertex, which means nothing was seen")
+        raise InputError(path, "red", "is 0 at every vertex, so nothing was seen")
     return ContactScan(points_m, np.where(red > 0, red / 255.0, np.nan))
 
 
@@ -64,17 +64,17 @@ def _red_channel(path: Path, loaded: trimesh.parent.Geometry) -> NDArray[np.floa
     elif isinstance(loaded, trimesh.Trimesh) and loaded.visual.kind == "vertex":
         colours = loaded.visual.vertex_colors
     elif isinstance(loaded, trimesh.Trimesh) and loaded.visual.kind == "texture":
-        raise InputError(path, "", "has a texture where a colour a vertex is needed")
+        raise InputError(path, "", "has a texture, but vertex colours are needed")
     else:
         colours = None
     if colours is None or len(colours) != len(loaded.vertices):
-        raise InputError(path, "", "has no colour a vertex: the red channel is the contact map")
+        raise InputError(path, "", "has no vertex colours: the red channel is the contact map")
     # The file's own numbers: trimesh makes bytes of them, whatever they are.
     stated = np.ravel(loaded.metadata["_ply_raw"]["vertex"]["data"]["red"])
     red, most = stated.astype(np.float64), 1 if stated.dtype.kind == "f" else 255
     if not ((red >= 0) & (red <= most)).all():
         bad = int(np.argmin((red >= 0) & (red <= most)))
-        raise InputError(path, "red", f"is {stated[bad]} at vertex {bad}, allowed are 0 to {most}")
+        raise InputError(path, "red", f"is {stated[bad]} at vertex {bad}; must be 0 to {most}")
     return red * 255 / most
 
 

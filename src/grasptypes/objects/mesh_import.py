@@ -80,7 +80,7 @@ def _read(path: str | Path, metres: float, limits: ImportLimits) -> dict[str, tr
     """Read the geometries of a mesh file by name, in metres; a single one is the `body`."""
     path = Path(path)
     if path.suffix.lower() not in FORMATS:
-        raise InputError(path, "", f"not a mesh format of {', '.join(FORMATS)}")
+        raise InputError(path, "", f"is not a supported mesh format ({', '.join(FORMATS)})")
     if not path.is_file():
         raise InputError(path, "", "no such file")
     check_file(path, limits)
@@ -92,14 +92,14 @@ def _read(path: str | Path, metres: float, limits: ImportLimits) -> dict[str, tr
             if isinstance(mesh, trimesh.Trimesh) and len(mesh.faces)
         }
     if not geometries:
-        raise InputError(path, "", "has no faces: a mesh of triangles is needed")
+        raise InputError(path, "", "has no faces: a triangle mesh is needed")
     check_faces(path, geometries, limits)
     for mesh in geometries.values():
         check_counts(path, mesh)
         _check_corners(path, mesh)
         if not np.isfinite(mesh.vertices).all():
             bad = int((~np.isfinite(mesh.vertices).all(axis=1)).sum())
-            raise InputError(path, "", f"{bad} vertices are not finite numbers (NaN or infinite)")
+            raise InputError(path, "", f"{bad} vertices are not finite (NaN or infinite)")
         mesh.apply_scale(metres)
     if len(geometries) == 1:
         return {"body": next(iter(geometries.values()))}
@@ -111,7 +111,9 @@ def _check_corners(path: Path, mesh: trimesh.Trimesh) -> None:
     count = len(mesh.vertices)
     missing = mesh.faces[(mesh.faces < 0) | (mesh.faces >= count)]
     if len(missing):
-        message = f"a face names vertex {missing[0]}, but the file holds {count}, numbered from 0"
+        message = (
+            f"a face refers to vertex {missing[0]}, but the file has {count} (numbered from 0)"
+        )
         raise InputError(path, "face", message)
 
 

@@ -44,7 +44,7 @@ def check_file(path: Path, limits: ImportLimits) -> None:
     """Refuse a file that is too large to be read, or half an STL; raises InputError."""
     size_mb = path.stat().st_size / 1e6
     if size_mb > limits.max_file_mb:
-        message = f"has {size_mb:.0f} MB, allowed are {limits.max_file_mb:g}: simplify the mesh"
+        message = f"has {size_mb:.0f} MB; the limit is {limits.max_file_mb:g} MB: simplify the mesh"
         raise InputError(path, "", message)
     if path.suffix.lower() == ".stl":
         _check_stl(path)
@@ -56,7 +56,11 @@ def check_counts(path: Path, loaded: trimesh.parent.Geometry) -> None:
     for name, held in (("vertex", loaded.vertices), ("face", getattr(loaded, "faces", ()))):
         count = stated.get(name, {}).get("length", 0)
         if count > len(held):
-            raise InputError(path, name, f"{count} are stated, {len(held)} there: it is cut short")
+            raise InputError(
+                path,
+                name,
+                f"the header says {count}, but there are {len(held)}: the file is truncated",
+            )
 
 
 def _check_stl(path: Path) -> None:
@@ -67,14 +71,16 @@ def _check_stl(path: Path) -> None:
         tail = file.read()
     faces = int.from_bytes(head[80:], "little")
     if path.stat().st_size != 84 + 50 * faces and b"endsolid" not in tail:
-        raise InputError(path, "", "is no whole STL: it is cut short, or another kind of file")
+        raise InputError(
+            path, "", "is not a complete STL: it is truncated, or another kind of file"
+        )
 
 
 def check_faces(path: str | Path, meshes: Meshes, limits: ImportLimits) -> None:
     """Refuse more faces than can be worked on; raises InputError."""
     faces = sum(len(mesh.faces) for mesh in meshes.values())
     if faces > limits.max_faces:
-        message = f"has {faces} faces, allowed are {limits.max_faces}: simplify the mesh"
+        message = f"has {faces} faces; the limit is {limits.max_faces}: simplify the mesh"
         raise InputError(path, "", message)
 
 
@@ -95,12 +101,12 @@ def check_size(
         raise InputError(
             path,
             "unit",
-            f"the object would be {size_m:.4g} m long with unit {unit}, allowed are "
+            f"the object would be {size_m:.4g} m long with unit {unit}, but must be "
             f"{limits.min_size_m} to {limits.max_size_m} m{advice}",
         )
     if extents_m.prod() > limits.max_box_m3:
         box = " x ".join(f"{extent:.2g}" for extent in extents_m)
-        message = f"the object fills {box} m, allowed are boxes of {limits.max_box_m3:g} m3"
+        message = f"the object's bounding box is {box} m; the limit is {limits.max_box_m3:g} m3"
         raise InputError(path, "", message)
 
 

@@ -21,5 +21,7 @@ def reference_meshes(environment: Mapping[str, str]) -> list[Path]:
         return []
     scans = sorted(Path(named).glob("*.stl"))
     if not scans:
-        raise InputError(REFERENCES, "", f"names '{named}', which is no folder of <object>.stl")
+        raise InputError(
+            REFERENCES, "", f"names '{named}', which is not a folder of <object>.stl files"
+        )
     return scans

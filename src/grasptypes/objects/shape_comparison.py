@@ -96,7 +96,7 @@ def compare_folder(
         figures = compare(model, trimesh.load_mesh(path), surface_samples, volume_samples)
         rows.append({"object": properties["object"], **asdict(figures)})
     if not rows:
-        raise InputError(references, "", "holds no <object>.stl of the objects compared")
+        raise InputError(references, "", "has no <object>.stl for any of the compared objects")
     table = pd.DataFrame(rows)
     return table.round({"chamfer_mm": 2, "chamfer_p95_mm": 2, "iou": 3})
 

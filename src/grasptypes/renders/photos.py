@@ -50,7 +50,7 @@ def photo_files(path: str | Path) -> list[Path]:
         if file.suffix.lower() in SUFFIXES and not file.name.startswith(".") and file.is_file()
     )
     if not files:
-        raise InputError(path, "", f"holds no picture ({', '.join(SUFFIXES)})")
+        raise InputError(path, "", f"contains no image ({', '.join(SUFFIXES)})")
     return files
 
 
@@ -93,9 +93,9 @@ def _opened(path: str | Path, limits: PhotoLimits) -> Iterator[Image.Image]:
         except Image.DecompressionBombError as error:
             raise InputError(path, "", _too_large(limits)) from error
         except UnidentifiedImageError as error:
-            raise InputError(path, "", f"not a picture ({', '.join(FORMATS)})") from error
+            raise InputError(path, "", f"not an image ({', '.join(FORMATS)})") from error
         except _BROKEN as error:
-            raise InputError(path, "", f"cannot be read as a picture: {error}") from error
+            raise InputError(path, "", f"cannot be read as an image: {error}") from error
 
 
 def padded(picture: np.ndarray) -> np.ndarray:
@@ -116,24 +116,24 @@ def _check(path: str | Path, picture: Image.Image, limits: PhotoLimits) -> None:
     """Look at the header alone, before anything is decoded."""
     width, height = picture.size
     if min(width, height) < limits.min_px:
-        message = f"is {width} x {height} pixels; each side needs {limits.min_px}"
+        message = f"is {width} x {height} pixels; each side needs at least {limits.min_px}"
         raise InputError(path, "", message)
     if width * height > limits.max_pixels:
         raise InputError(path, "", f"is {width} x {height} pixels; it {_too_large(limits)}")
     # A phone's JPEG may carry further pictures (MPO), of which the first is the photograph.
     if picture.format != "MPO" and getattr(picture, "is_animated", False):
-        message = "holds several pictures (an animation, or pages): save the one that is meant"
+        message = "contains several images (an animation or pages): save the one you mean"
         raise InputError(path, "", message)
     if picture.has_transparency_data:
         message = (
-            "has an alpha channel: save it without one, on the ground it is to be judged on "
+            "has an alpha channel, so its background is undefined: save it on a background "
             "(e.g. magick in.png -background white -alpha remove out.png)"
         )
         raise InputError(path, "", message)
     if picture.mode not in _MODES:
-        message = f"has values of mode {picture.mode}; allowed: 8 bits a channel, grey or colour"
+        message = f"has mode {picture.mode}; allowed: 8 bits per channel, grey or colour"
         raise InputError(path, "", message)
 
 
 def _too_large(limits: PhotoLimits) -> str:
-    return f"may have {limits.max_pixels / 1e6:g} million pixels at most"
+    return f"exceeds the limit of {limits.max_pixels / 1e6:g} million pixels"

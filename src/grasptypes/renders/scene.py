@@ -49,7 +49,7 @@ def load_parts(path: str | Path) -> list[Part]:
     Materials are taken as opaque: a transparent glass would show little but its background.
 
     Raises:
-        InputError: the file is missing, is not a mesh, or holds no faces.
+        InputError: the file is missing, is not a mesh, or has no faces.
     """
     with parsing(path, "cannot be read as a mesh"):
         scene = trimesh.load_scene(path, process=False)
@@ -62,7 +62,7 @@ def load_parts(path: str | Path) -> list[Part]:
                 mesh.copy().apply_transform(T_object_node)
             )
     if not grouped:
-        raise InputError(path, "", "holds no faces")
+        raise InputError(path, "", "has no faces")
     return [_part(material, meshes) for material, meshes in grouped.items()]
 
 

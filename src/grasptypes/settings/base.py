@@ -27,8 +27,8 @@ _UNITS = {
 }  # fmt: skip
 # What is wrong with a value, by the type of pydantic's error; the rest is in pydantic's words.
 _PROBLEMS = {
-    "int_type": "is not a whole number",
-    "int_from_float": "is not a whole number",
+    "int_type": "is not an integer",
+    "int_from_float": "is not an integer",
     "float_type": "is not a number",
     "finite_number": "is not a finite number",
     "bool_type": "is neither true nor false",
@@ -44,7 +44,7 @@ _PROBLEMS = {
     "too_long": "has {actual_length} values, at most {max_length} are allowed",
     "dict_type": "is not a mapping",
     "model_type": "is not a mapping",
-    "string_pattern_mismatch": "is no name: use lower-case letters, digits and underscores",
+    "string_pattern_mismatch": "is invalid: use lower-case letters, digits and underscores",
 }
 
 
@@ -70,7 +70,7 @@ def _unique(values: tuple[T, ...]) -> tuple[T, ...]:
 
 def _present(name: str) -> str:
     if name in ("nan", "null"):
-        raise ValueError(f"'{name}' is what tables write for a missing value: choose another name")
+        raise ValueError(f"'{name}' means a missing value in tables: choose another name")
     return name
 
 

@@ -23,7 +23,7 @@ Growth = Annotated[float, Field(ge=-0.5, le=0.5)]
 def _upwards(values: tuple[float, float]) -> tuple[float, float]:
     low, high = values
     if low > high:
-        raise ValueError(f"{low:g} is above {high:g}: the smaller comes first")
+        raise ValueError(f"{low:g} is above {high:g}: give the smaller one first")
     return values
 
 

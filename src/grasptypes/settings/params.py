@@ -72,7 +72,7 @@ class Params(Settings):
             if other != name:
                 raise MisplacedError(
                     f"tasks.{name}.colour_shift",
-                    f"{task.colour_shift} is that of {other} too: no image could tell them apart",
+                    f"{task.colour_shift} is also that of {other}: no image tells them apart",
                 )
         for name, own in self.objects.own.items():
             for unknown in own.contact_maps.keys() - self.tasks.keys():

@@ -107,7 +107,7 @@ def test_file_round_trip_has_the_same_bytes(bottle, tmp_path):
 
 def test_a_hold_that_no_hand_can_do_is_named(bottle):
     thick = replace(bottle, points_m=bottle.points_m * 10)
-    with pytest.raises(InputError, match=r"bottle, use, upper, pinch around.*no two sides"):
+    with pytest.raises(InputError, match=r"bottle, use, upper, pinch around.*no opposing sides"):
         _draw(thick, replace(WRAP, grip="pinch"))
 
 

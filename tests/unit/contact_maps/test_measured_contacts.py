@@ -117,7 +117,7 @@ def test_arrays_are_those_of_every_map_and_come_back_the_same(bottle, points, tm
     [
         (0.001, girdle, "unit and frame"),
         (1.0, lambda mesh: 120, "is the same wherever"),
-        (1.0, lambda mesh: np.where(np.arange(len(mesh.vertices)) == 9, 200, 1), "almost nowhere"),
+        (1.0, lambda mesh: np.where(np.arange(len(mesh.vertices)) == 9, 200, 1), "almost no warm"),
     ],
 )
 def test_what_cannot_be_used_is_refused_in_one_line(bottle, points, tmp_path, metres, red, reason):

@@ -34,7 +34,7 @@ def test_nothing_seen_is_refused(ball, tmp_path):
 
 def test_texture_or_no_colour_is_refused(ball, tmp_path):
     ball.export(tmp_path / "plain.ply")
-    with pytest.raises(InputError, match="no colour a vertex"):
+    with pytest.raises(InputError, match="no vertex colours"):
         read_contact_scan(tmp_path / "plain.ply")
     ball.visual = trimesh.visual.TextureVisuals(
         uv=np.zeros((len(ball.vertices), 2)), image=Image.new("RGB", (4, 4))

@@ -75,23 +75,23 @@ def _bad(folder):
 @pytest.mark.parametrize(
     ("name", "expected"),
     [
-        ("text.png", "not a picture"),
-        ("empty.png", "not a picture"),
-        ("truncated.png", "cannot be read as a picture"),
-        ("header.png", "not a picture"),
-        ("damaged.png", "cannot be read as a picture"),
-        ("truncated.jpg", "cannot be read as a picture"),
-        ("dot.png", "is 1 x 1 pixels; each side needs 32"),
+        ("text.png", "not an image"),
+        ("empty.png", "not an image"),
+        ("truncated.png", "cannot be read as an image"),
+        ("header.png", "not an image"),
+        ("damaged.png", "cannot be read as an image"),
+        ("truncated.jpg", "cannot be read as an image"),
+        ("dot.png", "is 1 x 1 pixels; each side needs at least 32"),
         ("alpha.png", "has an alpha channel"),
         ("key.png", "has an alpha channel"),
         ("deep.png", "8 bits a channel"),
-        ("huge.png", "1 million pixels at most"),
-        ("program.eps", "not a picture"),
-        ("folder.png", "cannot be read as a picture"),
-        ("moving.gif", "holds several pictures"),
-        ("moving.png", "holds several pictures"),
-        ("moving.webp", "holds several pictures"),
-        ("pages.tif", "holds several pictures"),
+        ("huge.png", "limit of 1 million pixels"),
+        ("program.eps", "not an image"),
+        ("folder.png", "cannot be read as an image"),
+        ("moving.gif", "contains several images"),
+        ("moving.png", "contains several images"),
+        ("moving.webp", "contains several images"),
+        ("pages.tif", "contains several images"),
     ],
 )
 def test_bad_pictures_are_refused_in_one_line(tmp_path, name, expected):
@@ -107,7 +107,7 @@ def test_bad_pictures_are_refused_in_one_line(tmp_path, name, expected):
 def test_a_header_is_looked_at_alone(tmp_path):
     _bad(tmp_path)
     check_photo(tmp_path / "truncated.png", LIMITS)
-    with pytest.raises(InputError, match="needs 32"):
+    with pytest.raises(InputError, match="at least 32"):
         check_photo(tmp_path / "dot.png", LIMITS)
 
 
@@ -130,5 +130,5 @@ def test_a_folder_gives_its_pictures_by_name(tmp_path):
 def test_nothing_there_is_said(tmp_path):
     with pytest.raises(InputError, match="no such file or folder"):
         photo_files(tmp_path / "gone.png")
-    with pytest.raises(InputError, match="holds no picture"):
+    with pytest.raises(InputError, match="contains no image"):
         photo_files(tmp_path)
