@@ -5,6 +5,7 @@ from collections.abc import Mapping, Sequence
 import pandas as pd
 
 from grasptypes.jobs import job
+from grasptypes.labels.label_pictures import save_figure
 from grasptypes.labels.samples import read_samples
 from grasptypes.predictors.generalisation import (
     GENERALISATION_SCHEMA,
@@ -13,7 +14,7 @@ from grasptypes.predictors.generalisation import (
     describe,
     summarize,
 )
-from grasptypes.reports.generalisation_plot import plot_generalisation
+from grasptypes.reports.figures import draw_generalisation
 from grasptypes.tables import read_table, write_table
 
 
@@ -29,7 +30,7 @@ def tabulate_generalisation(
     }
     found = summarize(trials, constant)
     write_table(found, table, GENERALISATION_SCHEMA)
-    plot_generalisation(found, figure)
+    save_figure(draw_generalisation(found), figure)
     return describe(found)
 
 

@@ -6,9 +6,10 @@ import pandas as pd
 
 from grasptypes.files import write_text
 from grasptypes.jobs import job
+from grasptypes.labels.label_pictures import save_figure
 from grasptypes.labels.samples import read_samples
 from grasptypes.predictors.scoring import METRIC_SCHEMA
-from grasptypes.reports.result_plots import plot_table
+from grasptypes.reports.figures import draw_table
 from grasptypes.reports.result_text import markdown
 from grasptypes.reports.results import RESULT_SCHEMA, tabulate
 from grasptypes.tables import read_table, write_table
@@ -26,7 +27,7 @@ def tabulate_results(
     table = pd.concat(tables, ignore_index=True).drop_duplicates(ignore_index=True)
     write_table(table, outputs["table"], RESULT_SCHEMA)
     write_text(outputs["markdown"], markdown(table))
-    plot_table(table, outputs["figure"])
+    save_figure(draw_table(table), outputs["figure"])
 
 
 if __name__ == "__main__":

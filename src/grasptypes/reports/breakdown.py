@@ -116,10 +116,11 @@ def labels_for(predictions: pd.DataFrame, samples: pd.DataFrame) -> np.ndarray:
         [joint.index, [""] * len(joint)], names=alone.index.names
     )
     keys = pd.MultiIndex.from_frame(predictions[["object", "task"]])
-    return pd.concat([alone, joint]).loc[keys].to_numpy(dtype=bool)
+    truth: np.ndarray = pd.concat([alone, joint]).loc[keys].to_numpy(dtype=bool)
+    return truth
 
 
 def _share(part: np.ndarray, whole: np.ndarray) -> np.ndarray:
     """`part` / `whole`, rounded; not a number where there is nothing to share."""
-    share = np.divide(part, whole, out=np.full(len(part), np.nan), where=whole > 0)
+    share: np.ndarray = np.divide(part, whole, out=np.full(len(part), np.nan), where=whole > 0)
     return share.round(6)

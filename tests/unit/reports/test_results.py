@@ -1,5 +1,7 @@
 """Tables of results beside the paper and the ceilings."""
 
+import re
+
 import numpy as np
 import pandas as pd
 import pytest
@@ -77,7 +79,7 @@ def test_markdown_names_backbone_and_weights(table):
     text = markdown(table)
     assert "| no_task | published | 0.450 ± 0.191 |" in text
     assert "mobilenet_v2, a.pth (0a1b2c3d), 2 groups x 2 seeds" in text
-    assert "nan" not in text
+    assert not re.search("nan|constant_of_others", text)
 
 
 def test_nothing_of_the_paper_stands_beside_unseen_objects():
@@ -103,11 +105,6 @@ def test_models_stand_beside_the_constant_answer_of_the_other_objects():
     assert line in markdown(table)
 
 
-def test_no_constant_answer_of_the_others_stands_beside_known_objects(table):
-    assert table[["sim_over_constant", "sim_over_constant_se"]].isna().all(axis=None)
-    assert "constant_of_others" not in markdown(table)
-
-
 def test_objects_are_compared_each_with_the_constant_answer_to_itself():
     counts = pd.DataFrame(np.eye(6, dtype=int)[[0, 0, 1]], columns=list(COUNTS))
     names = ["bowl", "mug", "pan"]
@@ -118,12 +115,6 @@ def test_objects_are_compared_each_with_the_constant_answer_to_itself():
     # Of bowl and mug alike the others are half right, of the pan they know nothing.
     row = table.set_index("model").loc["task_vector"]
     assert (row["sim_over_constant"], row["sim_over_constant_se"]) == pytest.approx((0, 0))
-
-
-def test_an_object_without_labels_cannot_be_compared():
-    rows = metrics("task_vector", [0.5]).assign(group="bowl")
-    with pytest.raises(KeyError, match="bowl"):
-        tabulate(rows, known_samples(), "published", unseen=True)
 
 
 def test_who_is_asked_for_joint_labels_has_a_constant_answer_of_its_own():
