@@ -36,5 +36,5 @@ def _reason(log: Path) -> str:
     lines = log.read_text(errors="replace").splitlines() if log.is_file() else []
     reasons = [line for line in lines if line.startswith(ERROR)]
     if not reasons:
-        return f"ended without a message, probably killed (was there enough memory?); see {log}"
+        return f"ended without a message, as if killed (was there enough memory?); see {log}"
     return reasons[-1].removeprefix(ERROR)

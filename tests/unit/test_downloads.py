@@ -38,7 +38,7 @@ def test_what_has_another_checksum_leaves_the_old_file_alone(host, tmp_path):
         ("http://127.0.0.1:9/file", "cannot be reached"),
         ("http://host.invalid/file", "host.invalid"),
         ("http://a b/file", "cannot be reached"),
-        ("file:///etc/hostname", "no http or https address"),
+        ("file:///etc/hostname", "not an http or https URL"),
     ],
 )
 def test_what_cannot_be_fetched_is_said_soon_and_leaves_nothing(host, tmp_path, url, said):

@@ -150,7 +150,7 @@ def test_dexgraspbench_runs_no_code(tmp_path):
 
     path = tmp_path / "0.npy"
     np.save(path, np.array({"grasp_qpos": Trap()}, dtype=object), allow_pickle=True)
-    with pytest.raises(InputError, match="no array"):
+    with pytest.raises(InputError, match="not an array"):
         dexgraspbench.read_grasp(path)
     assert not (tmp_path / "trapped").exists()
 
@@ -158,7 +158,7 @@ def test_dexgraspbench_runs_no_code(tmp_path):
 @pytest.mark.parametrize("content", [b"", b"text", pickle.dumps({"a": 1})])
 def test_not_dexgraspbench(tmp_path, content):
     (tmp_path / "0.npy").write_bytes(content)
-    with pytest.raises(InputError, match="no grasp of DexGraspBench"):
+    with pytest.raises(InputError, match="not a DexGraspBench grasp"):
         dexgraspbench.read_grasp(tmp_path / "0.npy")
 
 

@@ -79,5 +79,5 @@ def test_every_failed_job_has_its_reason_in_the_summary(
         failures.emit(failed(name))
     reasons = failures.summary().splitlines()
     assert reasons[0] == "error: train/mug: last"
-    assert reasons[1].startswith("error: killed: ended without giving a reason, as if killed")
+    assert reasons[1].startswith("error: killed: ended without a message, as if killed")
     logger.removeHandler(failures)

@@ -79,8 +79,8 @@ def test_jobs_start_only_for_who_holds_the_folder(repository: Repository) -> Non
         ("raise KeyError('mug')", "KeyError: 'mug'"),
         ("raise OSError(28, 'No space left on device', 'a.npz')", "a.npz: No space left on device"),
         ("raise MemoryError", "not enough memory for this job"),
-        ("sys.exit(3)", "ended without giving a reason"),
-        ("os.kill(os.getpid(), 9)", "ended without giving a reason, as if killed"),
+        ("sys.exit(3)", "ended without a message"),
+        ("os.kill(os.getpid(), 9)", "ended without a message, as if killed"),
     ],
 )
 def test_a_job_that_fails_ends_with_its_reason(

@@ -84,7 +84,7 @@ def _bad(folder):
         ("dot.png", "is 1 x 1 pixels; each side needs at least 32"),
         ("alpha.png", "has an alpha channel"),
         ("key.png", "has an alpha channel"),
-        ("deep.png", "8 bits a channel"),
+        ("deep.png", "8 bits per channel"),
         ("huge.png", "limit of 1 million pixels"),
         ("program.eps", "not an image"),
         ("folder.png", "cannot be read as an image"),
