@@ -1,4 +1,4 @@
-"""Functions compiled to machine code, which is kept on disk for as long as their sources stay.
+"""Compiled functions whose machine code is cached on disk until their sources change.
 
 Numba keys its cache on the file of the function alone; edit a constant or a callee in another file,
 and the old machine code keeps answering (its documentation lists this under "Caching limitations").

@@ -1,6 +1,6 @@
-"""Content hashes of files and of code: what results and machine code are valid for.
+"""Content hashes of files and code.
 
-They stand as rule parameters and key Numba's cache, so that staleness never depends on file times.
+They are rule parameters and keys of Numba's cache, so that staleness never depends on file times.
 """
 
 from __future__ import annotations
@@ -20,17 +20,17 @@ from grasptypes.files import write_text
 
 _SOURCE = Path(__file__).resolve().parents[1]
 _PACKAGE = Path(__file__).resolve().parent.name
-# Memories of another version of this module, or of Python's syntax trees, may hold something else.
+# Caches written by another version of this module or of Python's syntax trees may differ.
 _VERSION = f"{hashlib.sha256(Path(__file__).read_bytes()).hexdigest()[:16]} {sys.version_info[:2]}"
 
 
 class FileMemory:
-    """What a function makes of a file, remembered by inode, size and times.
+    """A function of a file, cached by inode, size and times.
 
     Args:
-        function: takes a path, returns what JSON can hold.
-        memory: a JSON file that keeps the results between processes; safe to delete. None: they
-            are kept for this process only.
+        function: takes a path and returns something JSON can store.
+        memory: JSON file that keeps the results between processes and is safe to delete; None
+            keeps them for this process only.
     """
 
     def __init__(self, function: Callable[[Path], Any], memory: str | Path | None = None) -> None:
@@ -38,14 +38,14 @@ class FileMemory:
         self.memory = Path(memory) if memory is not None else None
         self.known: dict[str, list[Any]] = {}
         if self.memory is not None:
-            with contextlib.suppress(OSError, ValueError):  # not there yet, or damaged: start anew
+            with contextlib.suppress(OSError, ValueError):  # missing or damaged: start over
                 self.known = json.loads(self.memory.read_text())
 
     def __call__(self, path: str | Path) -> Any:
-        """The function's result for a file as it is now.
+        """The function's result for the current content of a file.
 
         Raises:
-            FileNotFoundError: there is none.
+            FileNotFoundError: the file does not exist.
         """
         status = os.stat(path)
         stamp = [status.st_ino, status.st_size, status.st_mtime_ns, status.st_ctime_ns, _VERSION]
@@ -74,22 +74,22 @@ class FileHash:
 class CodeHash:
     """Hash of Python files and of every module of this package they import, directly or not.
 
-    The syntax trees are hashed without their docstrings: comments, docstrings and layout change
-    nothing; a changed statement anywhere below does. See :class:`FileMemory`.
+    Syntax trees are hashed without docstrings, so comments, docstrings and layout do not matter,
+    but every statement in an imported module does. See :class:`FileMemory`.
     """
 
     def __init__(self, memory: str | Path | None = None) -> None:
         self.read = FileMemory(_read, memory)
 
     def __call__(self, *scripts: str | Path) -> str:
-        """The first 16 hex digits of a hash of the files' statements and of what they import."""
+        """The first 16 hex digits of a hash of the files' statements and of all they import."""
         digest = hashlib.sha256()
         for name, path in sorted((_name(path), path) for path in self.files(*scripts)):
             digest.update(f"{name} {self.read(path)[0]}\n".encode())
         return digest.hexdigest()[:16]
 
     def files(self, *scripts: str | Path) -> set[Path]:
-        """The Python files and all of this package that they import, directly or not."""
+        """The Python files and all modules of this package they import, directly or not."""
         todo = {Path(script).resolve() for script in scripts}
         seen: set[Path] = set()
         while todo:
@@ -130,12 +130,12 @@ def _is_docstring(node: ast.AST) -> bool:
 
 
 def _name(path: Path) -> str:
-    """A name for the file that is the same in every checkout."""
+    """Name of the file that is the same in every checkout."""
     return str(path.relative_to(_SOURCE)) if path.is_relative_to(_SOURCE) else path.name
 
 
 def _with_packages(module: str) -> list[str]:
-    """The module and the packages it lies in, which its import runs; nothing of other packages."""
+    """The module and its parent packages, which its import runs; empty for other packages."""
     parts = module.split(".")
     depths = range(1, len(parts) + 1) if parts[0] == _PACKAGE else ()
     return [".".join(parts[:depth]) for depth in depths]

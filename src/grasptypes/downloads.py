@@ -1,4 +1,4 @@
-"""Files from hosts that may be slow, away or wrong: whole and right, or not at all."""
+"""Downloads with a timeout and a checksum: a file appears complete and correct, or not at all."""
 
 from __future__ import annotations
 
@@ -19,18 +19,19 @@ _FAILURES = (OSError, http.client.HTTPException, ValueError)
 
 
 class DownloadError(Exception):
-    """Nothing was fetched; the text says why, on one line."""
+    """The download failed; the message says why in one line."""
 
 
 def download(url: str, path: str | Path, sha256: str, timeout_s: float) -> None:
-    """Fetch ``url`` to ``path``, which appears only once it is whole.
+    """Download ``url`` to ``path``, which appears only when it is complete.
 
     Args:
-        sha256: its SHA-256 in hex digits, or the start of it.
-        timeout_s: how long the host may keep silent.
+        sha256: expected SHA-256 in hex digits, or a prefix of it.
+        timeout_s: longest time without a response.
 
     Raises:
-        DownloadError: the host does not answer in time, breaks off, or sends something else.
+        DownloadError: the host does not answer in time, the transfer is interrupted, or the
+            checksum is wrong.
     """
     path = Path(path)
     with _opened(url, timeout_s) as response:
@@ -55,10 +56,10 @@ def file_sha256(path: str | Path) -> str:
 
 
 def _opened(url: str, timeout_s: float) -> IO[bytes]:
-    """The answer to ``url``.
+    """Open ``url``.
 
-    Name resolution has no time limit of its own, so the host is asked in a thread that is left
-    behind when it takes too long.
+    Name resolution has no timeout of its own, so the request runs in a thread that is abandoned
+    when it takes too long.
     """
     if not url.startswith(("http://", "https://")):
         raise DownloadError(f"{url} is not an http or https URL")

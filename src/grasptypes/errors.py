@@ -1,4 +1,4 @@
-"""The one exception a user is meant to see."""
+"""The exception for user errors."""
 
 from __future__ import annotations
 
@@ -8,15 +8,15 @@ from pathlib import Path
 
 
 class InputError(ValueError):
-    """Something handed in by the user cannot be used.
+    """Input from the user cannot be used.
 
-    Its text is a single line that names the file, the key within it, and what is allowed, so that
-    it can be shown as it is, without a stack trace.
+    The message is a single line that names the file, the key in it, and what is allowed, and is
+    shown without a stack trace.
 
     Args:
-        file: the file (or the environment variable or option) that is at fault.
-        key: the key, column, row or property within it; empty if the file as a whole is.
-        message: what is wrong and what would be right.
+        file: the file, environment variable or option with the error.
+        key: the key, column, row or property in it; empty for the file as a whole.
+        message: what is wrong and what is allowed.
     """
 
     def __init__(self, file: str | Path, key: str, message: str) -> None:
@@ -32,14 +32,14 @@ class InputError(ValueError):
 
 @contextmanager
 def parsing(file: str | Path, refusal: str) -> Iterator[None]:
-    """Have a library read a user's file; whatever it raises over it becomes an :class:`InputError`.
+    """Turn any error that a library raises while parsing a user's file into an :class:`InputError`.
 
-    Damaged files lead parsers to errors that nobody lists, down to an UnboundLocalError. Memory
-    that is too short is not the file's fault.
+    Parsers raise undocumented errors on damaged files, even UnboundLocalError. MemoryError is
+    passed on, since it is not the file's fault.
 
     Args:
-        file: what is read.
-        refusal: what to say of a file that cannot be read; the parser's own words follow.
+        file: the file being parsed.
+        refusal: message for an unreadable file; the parser's own message is appended.
     """
     try:
         yield

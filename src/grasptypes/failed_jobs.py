@@ -1,4 +1,4 @@
-"""What became of the jobs that failed: one line each, after everything else is said."""
+"""One line per failed job, printed at the end of a run."""
 
 from __future__ import annotations
 
@@ -8,12 +8,12 @@ from pathlib import Path
 from snakemake.logging import logger
 from snakemake_interface_logger_plugins.common import LogEvent
 
-# How a job's log tells why it ended; see grasptypes.jobs.
+# Prefix of a job's last error in its log; see grasptypes.jobs.
 ERROR = "ERROR "
 
 
 class FailedJobs(logging.Handler):
-    """Listens to Snakemake for jobs that fail."""
+    """Collects the failed jobs that Snakemake reports."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -27,12 +27,12 @@ class FailedJobs(logging.Handler):
             self.logs[str(log.with_suffix("").relative_to("logs"))] = log
 
     def summary(self) -> str:
-        """A line for each job: its rule, its wildcards, and the reason."""
+        """One line per job: rule, wildcards, and reason."""
         return "".join(f"error: {job}: {_reason(log)}\n" for job, log in self.logs.items())
 
 
 def _reason(log: Path) -> str:
-    """The last error of a log; a job that was killed leaves none."""
+    """The last error in a log; a killed job leaves none."""
     lines = log.read_text(errors="replace").splitlines() if log.is_file() else []
     reasons = [line for line in lines if line.startswith(ERROR)]
     if not reasons:

@@ -1,4 +1,4 @@
-"""Writing files whole or not at all, with the same bytes for the same content."""
+"""Atomic writing of files, with the same bytes for the same content."""
 
 from __future__ import annotations
 
@@ -15,11 +15,11 @@ from numpy.typing import ArrayLike
 
 from grasptypes.errors import parsing
 
-# The earliest time a ZIP archive can hold: archives must not tell when they were written.
+# The earliest time a ZIP archive can store: archives must not depend on when they were written.
 ZIP_EPOCH = (1980, 1, 1, 0, 0, 0)
 
 
-# How the names of files end that are not whole yet.
+# Suffix of files that are still being written.
 TEMPORARY = ".tmp"
 
 
@@ -31,24 +31,24 @@ def write_bytes(path: str | Path, content: bytes) -> None:
     try:
         temporary.write_bytes(content)
         os.replace(temporary, path)
-    except OSError as error:  # a full disk does not say which file it could not take
+    except OSError as error:  # the error of a full disk does not name the file
         raise OSError(error.errno, error.strerror, str(path)) from error
     finally:
         temporary.unlink(missing_ok=True)
 
 
 def write_text(path: str | Path, content: str) -> None:
-    """Write UTF-8 text, whole or not at all."""
+    """Write UTF-8 text atomically."""
     write_bytes(path, content.encode())
 
 
 def write_json(path: str | Path, content: Any) -> None:
-    """Write JSON with sorted keys and a final newline; NaN and infinity are refused."""
+    """Write JSON with sorted keys and a final newline; NaN and infinity are rejected."""
     write_text(path, json.dumps(content, indent=2, sort_keys=True, allow_nan=False) + "\n")
 
 
 def zip_bytes(members: Mapping[str, bytes]) -> bytes:
-    """An uncompressed ZIP archive of ``members`` in their order, with a fixed time stamp."""
+    """Uncompressed ZIP archive of ``members`` in order, with a fixed time stamp."""
     buffer = io.BytesIO()
     with zipfile.ZipFile(buffer, "w", zipfile.ZIP_STORED) as archive:
         for name, content in members.items():
@@ -57,7 +57,7 @@ def zip_bytes(members: Mapping[str, bytes]) -> bytes:
 
 
 def write_npz(path: str | Path, arrays: Mapping[str, ArrayLike]) -> None:
-    """Write arrays as an uncompressed ``.npz`` that holds no time stamps and no pickles."""
+    """Write arrays as an uncompressed ``.npz`` without time stamps or pickles."""
     members = {}
     for name, array in arrays.items():
         buffer = io.BytesIO()
@@ -67,10 +67,10 @@ def write_npz(path: str | Path, arrays: Mapping[str, ArrayLike]) -> None:
 
 
 def read_npz(path: str | Path) -> dict[str, np.ndarray]:
-    """All arrays of an ``.npz``; pickled content is never read.
+    """Read all arrays of an ``.npz``; pickled content is never read.
 
     Raises:
-        InputError: not such a file, or a damaged one.
+        InputError: the file is not an ``.npz``, or damaged.
     """
     with (
         parsing(path, "cannot be read as arrays (.npz)"),

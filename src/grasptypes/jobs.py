@@ -1,4 +1,4 @@
-"""What every workflow script shares: a log file, and one line that says why a job failed."""
+"""What all workflow scripts share: a log file, and one line that says why a job failed."""
 
 from __future__ import annotations
 
@@ -11,19 +11,19 @@ from pathlib import Path
 
 from grasptypes.errors import InputError
 
-# What a file system answers when it is full, read-only, or somebody else's.
+# Errors of a file system that is full, read-only, or not ours to write.
 _REFUSALS = (errno.ENOSPC, errno.EDQUOT, errno.EROFS, errno.EACCES, errno.EPERM)
 
 
 @contextmanager
 def job(log: Sequence[str]) -> Iterator[logging.Logger]:
-    """Log to the rule's log file; whatever goes wrong ends with one line and exit status 1.
+    """Log to the rule's log file; report any error in one line and exit with status 1.
 
-    An error that nobody foresaw also leaves its stack trace in the log.
+    An unexpected error also leaves its stack trace in the log.
 
     Args:
-        log: the rule's log files (``snakemake.log``); the first is used, an empty list means
-            standard error only.
+        log: the rule's log files (``snakemake.log``); the first one is used, or standard error
+            if the list is empty.
     """
     handlers: list[logging.Handler] = [logging.StreamHandler(sys.stderr)]
     if len(log) > 0:
@@ -37,7 +37,7 @@ def job(log: Sequence[str]) -> Iterator[logging.Logger]:
         yield logger
     except Exception as error:
         line = reason(error)
-        logging.raiseExceptions = False  # the log may lie on the same full disk
+        logging.raiseExceptions = False  # the log may be on the same full disk
         if line is None:
             line = " ".join(f"{type(error).__name__}: {error}".split())
             logger.info("unexpected error", exc_info=error)
@@ -49,12 +49,12 @@ def job(log: Sequence[str]) -> Iterator[logging.Logger]:
 
 
 def reason(error: Exception) -> str | None:
-    """One line that says it all; None for an error that nobody foresaw."""
+    """One line that explains an expected error; None for an unexpected one."""
     if isinstance(error, InputError):
         return str(error)
     if isinstance(error, OSError) and error.errno in _REFUSALS:
         return f"{error.filename or 'a file'}: {error.strerror}"
-    # torch has no type of its own for lack of memory
+    # torch has no exception type of its own for this
     if isinstance(error, MemoryError) or "can't allocate memory" in str(error):
         return "not enough memory for this job: give it more, or run fewer at once (-j1)"
     return None

@@ -1,5 +1,5 @@
-"""What every process runs with: one thread, common instructions, and no surprises from the user's
-environment. Results then do not depend on the machine, and whoever calls `pin_runtime` gets them.
+"""The settings that every process runs with: one thread, a common instruction set, and nothing from
+the user's environment that changes results. Every entry point calls `pin_runtime`.
 """
 
 from __future__ import annotations
@@ -11,18 +11,18 @@ import tempfile
 from collections.abc import MutableMapping
 from pathlib import Path
 
-# What every x86 processor with AVX2 can do. Left alone, OpenBLAS, NumPy and Numba use whatever the
-# machine has, and a last digit that differs becomes another grasp.
+# What every x86 processor with AVX2 supports. By default, OpenBLAS, NumPy and Numba use whatever
+# the machine has, and a difference in the last digit leads to another grasp.
 COMMON_INSTRUCTIONS = {
     "OPENBLAS_CORETYPE": "Haswell",
     "NPY_ENABLE_CPU_FEATURES": "X86_V3",
     "NUMBA_CPU_NAME": "haswell",
 }
-# What users set for the same libraries, and what contradicts the values above: NumPy does not start
-# with features both enabled and disabled.
+# User settings of the same libraries that contradict the values above: NumPy does not start with
+# features both enabled and disabled.
 CONTRADICTIONS = ("NPY_DISABLE_CPU_FEATURES", "NUMBA_CPU_FEATURES")
-# A job computes with one thread, so that results do not depend on how many there are and a cluster
-# gets what it was asked for. Mesa counts the threads beside the one that calls it.
+# Jobs compute with one thread, so that results do not depend on their number and jobs use what they
+# requested from a cluster. Mesa counts the threads in addition to the calling one.
 ONE_THREAD = {
     "OMP_NUM_THREADS": "1",
     "OPENBLAS_NUM_THREADS": "1",
@@ -35,9 +35,9 @@ ONE_THREAD = {
 def pin_runtime(environment: MutableMapping[str, str] = os.environ) -> None:
     """Set the variables that libraries read on import, for this process and its children.
 
-    To be called by every entry point before NumPy is imported: what is imported already keeps its
-    settings. Figures are only ever drawn to files, whatever `MPLBACKEND` a notebook has set; a user
-    without a home folder gets one for caches.
+    Every entry point must call this before NumPy is imported, since imported libraries keep their
+    settings. Figures are only drawn to files, so `MPLBACKEND` is overridden too. A user without a
+    home folder gets a temporary one for caches.
     """
     environment.update(ONE_THREAD)
     environment["PYTHONHASHSEED"] = "0"
@@ -51,18 +51,18 @@ def pin_runtime(environment: MutableMapping[str, str] = os.environ) -> None:
 
 
 def has_home(environment: MutableMapping[str, str]) -> bool:
-    """Whether the user has a home folder that caches can be written to."""
+    """Whether the user has a writable home folder for caches."""
     home = environment.get("HOME", "")
     if not home:
         try:
             home = str(Path.home())
-        except RuntimeError:  # neither HOME nor an entry among the users, as in containers
+        except RuntimeError:  # neither HOME nor a user entry, as in containers
             return False
     return home != "/" and os.access(home, os.W_OK)
 
 
 def processor_features(description: Path = Path("/proc/cpuinfo")) -> set[str]:
-    """Names of what an x86 processor can do; none where Linux does not tell."""
+    """Feature names of the x86 processor; empty where Linux does not list them."""
     if not description.is_file():
         return set()
     lines = description.read_text().splitlines()
@@ -75,5 +75,5 @@ def use_this_checkout(root: str | Path) -> None:
     os.environ["PYTHONPATH"] = os.pathsep.join(filter(None, paths))
     os.environ["PATH"] = os.pathsep.join([str(Path(sys.executable).parent), os.environ["PATH"]])
     if shlex.quote(sys.executable) != sys.executable:
-        # Snakemake does not quote it in the commands of jobs; there it is found on the PATH.
+        # Snakemake does not quote this path in job commands; they find the name on the PATH.
         sys.executable = Path(sys.executable).name

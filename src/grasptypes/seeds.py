@@ -1,4 +1,4 @@
-"""Random numbers that depend on what is computed, never on the order or the number of jobs."""
+"""Random numbers that depend on what is computed, not on the order or number of jobs."""
 
 from __future__ import annotations
 
@@ -15,5 +15,5 @@ def seed(*key: str | int) -> int:
 
 
 def rng(*key: str | int) -> np.random.Generator:
-    """A generator of its own for the computation that ``key`` names."""
+    """A random generator for the computation named by ``key``."""
     return np.random.Generator(np.random.PCG64(seed(*key)))

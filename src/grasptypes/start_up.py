@@ -1,4 +1,4 @@
-"""What a run checks before anything starts; every mistake is one line."""
+"""Checks before a run starts; every mistake is reported in one line."""
 
 from __future__ import annotations
 
@@ -21,12 +21,12 @@ def check_start(
     """Check the files that the parameters name, and the user's settings.
 
     Args:
-        params: those of params.yaml, with what the command line changes.
-        root: of the checkout.
-        environment: variables of the process.
+        params: from params.yaml, with changes from the command line.
+        root: root folder of the checkout.
+        environment: environment variables of the process.
 
     Returns:
-        the affinity table's rows of each object and task.
+        the rows of the affinity table for each object and task.
 
     Raises:
         InputError: the first mistake.

@@ -1,4 +1,4 @@
-"""Tables are checked against a schema at the moment they are written."""
+"""Reading and writing of tables, checked against a schema."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ def write_table(table: pd.DataFrame, path: str | Path, schema: pa.DataFrameSchem
     """Check ``table`` against ``schema`` and write it as CSV or Parquet, by the file's suffix.
 
     Raises:
-        pandera.errors.SchemaError: the table does not meet its schema; nothing is written.
+        pandera.errors.SchemaError: the table violates its schema; nothing is written.
     """
     path = Path(path)
     checked = schema.validate(table)
@@ -32,7 +32,7 @@ def read_table(path: str | Path, schema: pa.DataFrameSchema) -> pd.DataFrame:
     """Read a table written by :func:`write_table` and check it.
 
     Raises:
-        InputError: naming the file and the first column that does not meet the schema.
+        InputError: names the file and the first column that violates the schema.
     """
     path = Path(path)
     try:
@@ -42,7 +42,7 @@ def read_table(path: str | Path, schema: pa.DataFrameSchema) -> pd.DataFrame:
     try:
         return schema.validate(table)
     except (pa.errors.SchemaError, pa.errors.SchemaErrors) as error:
-        # Columns too many come as a collection of errors, even a single one.
+        # Extra columns are reported as a collection of errors, even a single one.
         first = getattr(error, "schema_errors", [error])[0]
         column = getattr(first.schema, "name", None) or str(first.reason_code)
         raise InputError(path, str(column), str(first)) from error

@@ -1,4 +1,4 @@
-"""YAML files, read strictly: no tags, no duplicate keys, no keys but text."""
+"""Strict reading of YAML files: no tags, no duplicate keys, only text keys."""
 
 from __future__ import annotations
 
@@ -12,15 +12,15 @@ from grasptypes.errors import InputError
 
 # Far more levels than any parameter needs.
 DEEPEST = 100
-# libyaml parses several times faster; a PyYAML built without it does the same in Python.
+# libyaml is several times faster; a PyYAML without it gives the same result.
 _SafeLoader: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 
 
 class _StrictLoader(_SafeLoader):
-    """A safe loader that takes text keys only, each once: YAML would let the last one win."""
+    """A safe loader that accepts only unique text keys; in plain YAML the last duplicate wins."""
 
     def construct_mapping(self, node: yaml.MappingNode, deep: bool = False) -> dict[Hashable, Any]:
-        """A mapping whose keys are texts, each there once."""
+        """A mapping with unique text keys."""
         seen = set()
         for key_node, _ in node.value:
             problem, kind = "", key_node.tag.split(":")[-1]
@@ -36,7 +36,7 @@ class _StrictLoader(_SafeLoader):
         return super().construct_mapping(node, deep)
 
     def construct_object(self, node: yaml.Node, deep: bool = False) -> Any:
-        """A value; what does not look like its kind is an error with a line number."""
+        """A value; one that does not fit its type is an error with a line number."""
         try:
             return super().construct_object(node, deep)
         except (ValueError, KeyError, AttributeError) as error:  # such as 2020-99-99, !!bool x
@@ -45,7 +45,7 @@ class _StrictLoader(_SafeLoader):
 
 
 def read_yaml(path: str | Path) -> dict[str, Any]:
-    """A YAML mapping; tags, duplicate keys and anything but a mapping are refused.
+    """Read a YAML mapping; tags, duplicate keys and anything but a mapping are rejected.
 
     Raises:
         InputError: the file is missing, not YAML, or not a mapping.
@@ -72,7 +72,7 @@ def read_yaml(path: str | Path) -> dict[str, Any]:
 
 
 def merge(base: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str, Any]:
-    """``base`` with ``changes`` laid over it, section by section; lists are replaced whole."""
+    """``base`` updated recursively with ``changes``; lists are replaced as a whole."""
     merged = dict(base)
     for key, value in changes.items():
         old = merged.get(key)
@@ -83,7 +83,7 @@ def merge(base: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str, Any]
 
 
 def _check_depth(path: Path, text: str) -> None:
-    """Refuse what libyaml's loader would overflow the stack with; its events cost no stack."""
+    """Reject nesting that would overflow the stack of libyaml's loader; its events use no stack."""
     depth = 0
     for event in yaml.parse(text, _SafeLoader):
         depth += isinstance(event, yaml.CollectionStartEvent)

@@ -1,12 +1,12 @@
-"""DexGraspBench npy: one dictionary a grasp, pickled in a NumPy file.
+"""DexGraspBench npy: one dictionary per grasp, pickled in a NumPy file.
 
-Facts of the format (DexGraspBench, README and src/task/convert_format.py): `obj_pose` (7, position
+The format (DexGraspBench, README and src/task/convert_format.py): `obj_pose` (7, position
 then quaternion w, x, y, z, in the world), `obj_scale`, `obj_path`, and `pregrasp_qpos`,
 `grasp_qpos`, `squeeze_qpos` (7 + joints: the hand's pose in the world, then its joint angles); its
 converters open the hand to 0.9 of the angles before and close it to 1.1 after the grasp.
 
-A pickle can run code when it is read. Files are therefore read by an unpickler that knows NumPy's
-arrays and plain values, and nothing else.
+A pickle can run code when it is read, so files are read by an unpickler that accepts only NumPy
+arrays and plain values.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ _NUMPY = {"_reconstruct", "scalar", "ndarray", "dtype", "_frombuffer"}
 
 class _ArrayUnpickler(pickle.Unpickler):
     def find_class(self, module: str, name: str) -> Any:
-        """What arrays are made of, and nothing else that a pickle may name."""
+        """Allow only the classes that NumPy arrays are made of."""
         if module.split(".")[0] == "numpy" and name in _NUMPY:
             return super().find_class(module, name)
         raise pickle.UnpicklingError(f"holds {module}.{name}, which is not an array")
@@ -44,11 +44,11 @@ class _ArrayUnpickler(pickle.Unpickler):
 def write_grasp(
     path: str | Path, hands: PosedHands, index: int, scale: float, object_path: str
 ) -> None:
-    """Write one grasp, the object at the world's origin.
+    """Write one grasp, with the object at the origin of the world.
 
     Args:
-        scale: of the mesh in `object_path`.
-        object_path: folder of the object as MeshProcess prepares it.
+        scale: scale of the mesh in `object_path`.
+        object_path: folder of the object as prepared by MeshProcess.
     """
     pose = to_position_quaternion(hands.T_object_hand[index])
     angles = hands.joint_angles_rad[index]
@@ -69,7 +69,7 @@ def read_grasp(path: str | Path) -> PosedHands:
     """Read one grasp of the BarrettHand with eight joints in our order.
 
     Raises:
-        InputError: not such a file, or one that holds anything but arrays and plain values.
+        InputError: the file is not a grasp, or has content other than arrays and plain values.
     """
     content = _read(path)
     missing = {"obj_pose", "obj_path", "grasp_qpos"} - set(content)
@@ -86,7 +86,7 @@ def read_grasp(path: str | Path) -> PosedHands:
 
 
 def _turned(angles: NDArray[np.float64], factor: float) -> NDArray[np.float64]:
-    """The fingers' angles (8,) times a factor, within the limits; the spread stays."""
+    """Joint angles (8,) with the fingers' scaled by a factor, clipped to the limits."""
     turned = np.concatenate([angles[:2], angles[2:] * factor])
     return np.clip(turned, *JOINT_LIMITS_RAD.T)
 

@@ -1,9 +1,9 @@
 """GraspIt! world files: one object and one Barrett hand, in XML.
 
-Facts of the format (GraspIt!'s manual, "Worlds", and its worlds/barrettGlassDyn.xml): lengths are
+The format (GraspIt!'s manual, "Worlds", and its worlds/barrettGlassDyn.xml): lengths are
 millimetres; a pose is `(w x y z)[x y z]` in the world; the ten `dofValues` of its Barrett model are
-the spread, then for each finger its angle, 1 if its clutch has let go, and the angle at which it
-did. From there on the finger's angle drives the fingertip alone.
+the spread, then for each finger its angle, 1 if its clutch has released, and the angle at which it
+released. From there on, the finger's angle drives only the fingertip.
 """
 
 from __future__ import annotations
@@ -28,15 +28,16 @@ Array = NDArray[np.float64]
 
 ROBOT = "models/robots/Barrett/Barrett.xml"
 MM = 1e3
-# Below this a fingertip counts as coupled to its finger: angles in files have six digits.
+# Below this difference a fingertip counts as coupled to its finger: angles in files have six
+# digits.
 COUPLED_RAD = 1e-4
 
 
 def write_world(path: str | Path, hands: PosedHands, index: int, object_file: str) -> None:
-    """Write one grasp, the object at the world's origin.
+    """Write one grasp, with the object at the origin of the world.
 
     Args:
-        object_file: of the body in GraspIt!'s model folder, e.g. `models/objects/mug.xml`.
+        object_file: file of the body in GraspIt!'s model folder, e.g. `models/objects/mug.xml`.
     """
     world = ElementTree.Element("world")
     body = ElementTree.SubElement(world, "graspableBody")
@@ -52,10 +53,10 @@ def write_world(path: str | Path, hands: PosedHands, index: int, object_file: st
 
 
 def read_world(path: str | Path) -> PosedHands:
-    """Read a world with one graspable body and one Barrett hand; other elements are passed over.
+    """Read a world with one graspable body and one Barrett hand; other elements are ignored.
 
     Raises:
-        InputError: not such a world.
+        InputError: the file is not such a world.
     """
     with parsing(path, "is not a GraspIt! world"):
         world = ElementTree.parse(path).getroot()
@@ -75,7 +76,7 @@ def read_world(path: str | Path) -> PosedHands:
 def dof_values(joint_angles_rad: Array) -> list[float]:
     """The ten numbers of GraspIt!'s Barrett for joint angles (8,), radians.
 
-    Its tips cannot be behind their fingers: those that physics pressed there count as coupled.
+    Its tips cannot lag behind their fingers; tips that physics pressed back count as coupled.
     """
     values = [float(joint_angles_rad[0])]
     for finger in range(3):

@@ -1,9 +1,9 @@
 """MultiGripperGrasp JSON: all grasps of one object by one gripper.
 
-Facts of the format (isaac_sim_grasping, "Grasp Data Format" and manager.py): a dictionary with
-`gripper`, `object_id`, `pose` (one a grasp: the gripper's in the object's frame, position then
-quaternion, w first as Isaac Sim takes it) and `dofs` (joint values); its simulation adds `result`,
-1 for a grasp that passed. Further keys are kept by its tools, so ours name the joints and frame.
+The format (isaac_sim_grasping, "Grasp Data Format" and manager.py): a dictionary with
+`gripper`, `object_id`, `pose` (one per grasp: the gripper in the object's frame, position then
+quaternion, w first as in Isaac Sim) and `dofs` (joint values); its simulation adds `result`,
+1 for a grasp that passed. Its tools keep further keys, so ours name the joints and the frame.
 """
 
 from __future__ import annotations
@@ -42,10 +42,10 @@ def write_grasps(path: str | Path, hands: PosedHands) -> None:
 
 
 def read_grasps(path: str | Path) -> PosedHands:
-    """Read grasps with eight joint values in our order, or in the order `joint_names` gives.
+    """Read grasps with eight joint values in our order, or in the order of `joint_names`.
 
     Raises:
-        InputError: not such a file.
+        InputError: the file is not in this format.
     """
     content = _read(path)
     names = list(content.get("joint_names", JOINT_NAMES))

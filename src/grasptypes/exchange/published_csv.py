@@ -38,7 +38,7 @@ def authors_columns(table: pd.DataFrame, types: Sequence[str]) -> pd.DataFrame:
 
 
 def format_configuration(numbers: ArrayLike) -> str:
-    """17 numbers as a cell: the rank index whole, the others with nine digits."""
+    """17 numbers as a cell: an integer rank index, the rest with nine digits."""
     rank_index, *others = np.asarray(numbers, dtype=np.float64)
     return ",".join([str(int(rank_index)), *(f"{value:.9g}" for value in others)])
 

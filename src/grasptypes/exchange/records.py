@@ -1,4 +1,4 @@
-"""What all formats of the field share: a hand's pose at an object and its joint angles.
+"""What all exchange formats share: a hand's pose relative to an object and its joint angles.
 
 Quaternions here and in the formats are w, x, y, z.
 """
@@ -19,7 +19,7 @@ class PosedHands(NamedTuple):
 
     object_name: str
     T_object_hand: Array
-    """(n, 4, 4) the palm's frame of `hand.kinematics` in the object's, metres."""
+    """(n, 4, 4) palm frame of `hand.kinematics` in the object frame, metres."""
     joint_angles_rad: Array
     """(n, 8) in the order of `kinematics.JOINT_NAMES`."""
     held: NDArray[np.bool_]
@@ -34,7 +34,7 @@ def to_position_quaternion(T: ArrayLike) -> Array:
 
 
 def from_position_quaternion(numbers: ArrayLike) -> Array:
-    """Poses (..., 4, 4) of x, y, z, then w, x, y, z (..., 7), the quaternion of any length.
+    """Poses (..., 4, 4) of x, y, z, then w, x, y, z (..., 7), with a quaternion of any length.
 
     Raises:
         ValueError: not seven numbers, or a quaternion of length zero.

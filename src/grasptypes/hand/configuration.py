@@ -1,4 +1,4 @@
-"""The 17 numbers of a hand_configuration, as the published dataset writes them."""
+"""The 17 numbers of a hand_configuration, as in the published dataset."""
 
 from typing import NamedTuple
 
@@ -11,10 +11,10 @@ LENGTH = 17
 
 
 class HandConfiguration(NamedTuple):
-    """Where the hand is and how far it is closed; leading dimensions are a batch."""
+    """Pose and degrees of freedom of the hand; leading dimensions are a batch."""
 
     rank_index: NDArray[np.int64]
-    """(...,) position in the ranking by energy, the best is 0."""
+    """(...,) position in the ranking by energy, 0 is the best."""
     T_object_hand: Array
     """(..., 4, 4) the hand's frame in the object's frame, metres."""
     dofs_rad: Array
@@ -22,7 +22,7 @@ class HandConfiguration(NamedTuple):
 
 
 def unpack(numbers: ArrayLike) -> HandConfiguration:
-    """Take apart hand configurations (..., 17): rank index, 3x4 pose row by row, four DOFs.
+    """Unpack hand configurations (..., 17): rank index, 3x4 pose row by row, four DOFs.
 
     Raises:
         ValueError: the last dimension is not 17.

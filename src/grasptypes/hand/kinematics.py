@@ -1,10 +1,10 @@
 """Forward kinematics of the BarrettHand, batched, in GraspIt!'s `Barrett` frame.
 
-The frame's origin lies on the palm, +z is the palm's normal (the approach), finger 3 stands at
-y = -50 mm. Chains and their order are GraspIt!'s, the one the published hand poses use; limits are
-those of the real hand (BH8-28x), which GraspIt! overstates by four degrees a finger.
+The origin of the frame is on the palm, +z is the palm normal (the approach), finger 3 is at
+y = -50 mm. Chains and their order are GraspIt!'s, as used by the published hand poses; limits are
+those of the real hand (BH8-28x), which GraspIt! overstates by four degrees per finger.
 
-Every link's frame sits on the joint that carries the link, turned with it: z is the joint's axis
+Each link frame is at the joint that carries the link and turns with it: z is the joint axis
 (positive angles close the finger or open the spread), x points along the link to the next joint,
 and y is the grasping side of a finger link.
 """
@@ -95,15 +95,15 @@ JOINTS = _joints()
 
 
 def couple(dofs_rad: ArrayLike) -> Array:
-    """All eight joint angles of a hand whose fingertips are still coupled to their finger bases.
+    """All eight joint angles of a hand whose fingertips are coupled to their finger bases.
 
     Args:
         dofs_rad: (..., 4) spread, F1, F2, F3 in radians.
 
     Returns:
-        (..., 8) angles in the order of `JOINT_NAMES`. A finger that the TorqueSwitch has released
-        differs only in its distal angle, which may then be anything between the coupled angle and
-        the upper limit in `JOINT_LIMITS_RAD`.
+        (..., 8) angles in the order of `JOINT_NAMES`. For a finger released by the TorqueSwitch,
+        only the distal angle differs: it is between the coupled angle and the upper limit in
+        `JOINT_LIMITS_RAD`.
     """
     dofs_rad = np.asarray(dofs_rad, dtype=np.float64)
     spread, fingers = dofs_rad[..., :1], dofs_rad[..., 1:]
@@ -118,7 +118,7 @@ def link_poses(joint_angles_rad: ArrayLike) -> Array:
 
     Returns:
         T_hand_link (..., 9, 4, 4) in the order of `LINK_NAMES`, metres. Column 2 of a pose is the
-        axis its joint turns about, column 3 a point on that axis: all a Jacobian needs.
+        joint axis and column 3 a point on it, as needed for a Jacobian.
     """
     angles = np.asarray(joint_angles_rad, dtype=np.float64)
     cosine, sine = np.cos(angles), np.sin(angles)
@@ -148,7 +148,7 @@ def lag(joint_angles_rad: ArrayLike) -> Array:
         joint_angles_rad: (..., 8) in the order of `JOINT_NAMES`.
 
     Returns:
-        (..., 3), negative where the TorqueSwitch has let the tip go ahead.
+        (..., 3), negative where the TorqueSwitch has let the tip move ahead.
     """
     angles = np.asarray(joint_angles_rad, dtype=np.float64)
     return DISTAL_RATIO * angles[..., 2:5] - angles[..., 5:8]

@@ -3,7 +3,7 @@
 Dimensions are those of GraspIt!'s link meshes (length x height x width: knuckle 76 x 47 x 25,
 proximal 92 x 27 x 19, distal 67.5 x 20 x 23 mm; palm x -44.5..44.5, y -64.4..44.5,
 z -82.9..12.8 mm). They fit together: 76 = 12.5 + 50 + 13.5 and 92 = 13.5 + 70 + 8.5 are hub radii
-around joint distances. What they leave open is derived step by step in the asset's README.
+around joint distances. The README of the asset derives the rest step by step.
 """
 
 from collections.abc import Sequence
@@ -25,7 +25,7 @@ BODY_SEGMENTS = 32
 PALM_RADIUS_M = 0.0445
 PALM_BOTTOM_M = -0.0829
 PALM_PLATE_BOTTOM_M = -0.010
-# Half length of the plate at each height: its ends slope as a finger folded to 140 degrees does.
+# Half length of the plate at each height: its ends slope like a finger folded to 140 degrees.
 PALM_PLATE_ENDS_M = ((0.0, 0.027), (-0.0075, 0.036), (PALM_PLATE_BOTTOM_M, 0.036))
 PALM_CORE_TOP_M = -0.009
 PALM_DRUM_TOP_M = -0.036

@@ -15,12 +15,12 @@ from grasptypes.seeds import rng
 
 Array = NDArray[np.float64]
 
-# Enough candidates that a disc of the chosen spacing seldom finds none of them (about 25 a disc).
+# About 25 candidates per disc of the chosen spacing, so that a disc is rarely empty.
 CANDIDATES_PER_DISC = 25
 
 
 class SurfacePoints(NamedTuple):
-    """Points spread evenly over the hand's surface, each in its own link's frame.
+    """Points spread evenly over the hand's surface, each in the frame of its link.
 
     A point is posed by `T_hand_link[link_index] @ point`.
     """
@@ -40,7 +40,7 @@ def collision_parts() -> list[list[Array]]:
 
 @cache
 def link_meshes() -> tuple[trimesh.Trimesh, ...]:
-    """A closed mesh of every link, metres, in the order of `LINK_NAMES`: its parts united."""
+    """A closed mesh of each link, metres, in the order of `LINK_NAMES`: the union of its parts."""
     return tuple(_united(parts) for parts in collision_parts())
 
 
@@ -54,8 +54,8 @@ def _united(parts: list[Array]) -> trimesh.Trimesh:
 def surface_points(spacing_m: float) -> SurfacePoints:
     """Points on the surface of all links, no two of a link closer than `spacing_m`.
 
-    Points that a neighbouring link covers whatever the joint's angle, inside the hubs, are left
-    out: nothing can touch them. The result is the same for the same spacing, always.
+    Points inside the hubs that a neighbouring link covers at every joint angle are left out, since
+    nothing can touch them. The result depends only on the spacing.
     """
     links, points, normals = [], [], []
     for index, name in enumerate(kinematics.LINK_NAMES):
@@ -112,7 +112,7 @@ def depth_in_link(link: int, points: Array) -> Array:
     """How deep points (n, 3) of a link's frame lie in its deepest convex part.
 
     Returns:
-        (n,) metres, positive inside; outside, minus a lower bound of the distance.
+        (n,) metres, positive inside; outside, the negative of a lower bound on the distance.
     """
     depths = [(offset - points @ normal.T).min(axis=1) for normal, offset in _half_spaces(link)]
     return np.max(depths, axis=0)

@@ -17,7 +17,7 @@ Array = NDArray[np.float64]
 
 URDF_NAME = "barrett_hand.urdf"
 
-# jhu-lcsr/barrett_model, the best founded of the public models: 1.098 kg in all (quoted: 0.98).
+# jhu-lcsr/barrett_model, the best-documented public model: 1.098 kg in all (quoted: 0.98).
 LINK_MASSES_KG = {"palm": 0.506, "knuckle": 0.141, "proximal": 0.062, "distal": 0.041}
 FRICTION = 0.8
 
@@ -41,7 +41,7 @@ def link_mass_kg(link: str) -> float:
 
 
 def joint_effort_nm(joint: str) -> float:
-    """Torque of a joint that gives the stated fingertip force with the finger open."""
+    """Joint torque that gives the stated fingertip force with the finger open."""
     kind = joint.split("_")[0]
     if kind == "distal":
         return FINGERTIP_FORCE_N * kinematics.DISTAL_LENGTH_M
@@ -52,7 +52,7 @@ def joint_effort_nm(joint: str) -> float:
 
 
 def joint_speed_rad_s(joint: str) -> float:
-    """Speed limit of a joint, from the time the hand takes over its whole range."""
+    """Speed limit of a joint, from the time the hand takes for its whole range."""
     spread, finger = np.diff(kinematics.DOF_LIMITS_RAD[:2]).ravel()
     if joint.startswith("spread"):
         return float(spread / SPREAD_TIME_S)
@@ -84,7 +84,7 @@ def write_hand(folder: str | Path) -> list[Path]:
 
 
 def obj_text(vertices_m: Array, faces: NDArray[np.int64]) -> str:
-    """A triangle mesh as OBJ, in micrometres and in an order that only depends on its shape."""
+    """A triangle mesh as OBJ, rounded to micrometres, in an order that only depends on shape."""
     rounded = np.round(vertices_m, 6) + 0.0
     unique, index = np.unique(rounded, axis=0, return_inverse=True)
     triangles = index.reshape(-1)[faces]
@@ -118,7 +118,7 @@ def _add_link(robot: Element, index: int, link: str) -> dict[str, tuple[Array, A
 
 
 def _add_inertial(element: Element, index: int, link: str) -> None:
-    """Mass properties of a link of even density, which hold the triangle inequality."""
+    """Mass properties of a link of uniform density; they satisfy the triangle inequality."""
     mesh = link_meshes()[index]
     mass = link_mass_kg(link)
     inertia = mesh.moment_inertia * (mass / mesh.volume)
@@ -160,5 +160,5 @@ def _add(parent: Element, tag: str, **attributes: str) -> Element:
 
 
 def _numbers(values: object, digits: int = 6) -> str:
-    """Numbers as URDF writes them, rounded to so many decimals."""
+    """Numbers in URDF notation, rounded to `digits` decimals."""
     return " ".join(f"{round(float(v), digits) + 0.0:.{digits}f}" for v in np.ravel(values))

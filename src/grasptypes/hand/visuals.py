@@ -25,7 +25,7 @@ SEAM_M = 0.0015
 
 
 class Visual(NamedTuple):
-    """One material's share of a link: vertices (n, 3) metres in its frame, triangles (m, 3)."""
+    """The part of a link of one material: vertices (n, 3) m in its frame, triangles (m, 3)."""
 
     name: str
     material: str
@@ -99,7 +99,7 @@ def _distal() -> dict[str, Manifold]:
 
 @cache
 def link_visuals() -> tuple[tuple[Visual, ...], ...]:
-    """What each link shows, in the order of `kinematics.LINK_NAMES`; fingers share shapes."""
+    """Visual solids of each link, in the order of `kinematics.LINK_NAMES`; fingers share them."""
     links = (
         ("palm", _palm()),
         ("knuckle_1", _knuckle("knuckle_1", -1.0)),
