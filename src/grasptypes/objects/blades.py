@@ -120,8 +120,8 @@ def _blade_section(size: Knife, spine_m: float, edge_m: float, half_m: float) ->
 class Scissors:
     """Closed scissors: finger loops towards +y, blades towards -y, flat in z.
 
-    Each half is one blade with the loop on the other side; the halves lie on each other and
-    mirror each other in x, but for the offset of the blades' tips.
+    Each half is one blade with the loop on the other side. The halves lie on top of each other and
+    are mirror images in x, except for the offset of the blades' tips.
     """
 
     half_thickness_m: float = 0.0045
@@ -180,8 +180,8 @@ def scissors(size: Scissors = Scissors()) -> ObjectModel:
 def _scissors_blade(size: Scissors) -> Manifold:
     """Return the blade right of the middle with its pivot disc on the upper layer.
 
-    It reaches a little below z = 0, so that the two halves join, and lies flush below the
-    plastic of the loop's shank.
+    It reaches slightly below z = 0, so that the two halves join, and is flush with the underside of
+    the loop's plastic shank.
     """
     low_m, high_m = -size.blade_inset_m, size.half_thickness_m - size.blade_inset_m
     lug = sections.circle(size.pivot_radius_m) + [0.0, size.pivot_y_m]

@@ -1,4 +1,4 @@
-"""Convex collision parts: a solid cut by planes until the hulls of its pieces hug it."""
+"""Convex collision parts: a solid cut by planes until the hulls of its pieces fit it closely."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from manifold3d import Manifold
 
 from grasptypes.objects import solids
 
-# The axes and the diagonals of the coordinate planes; turned solids need the diagonals.
+# The axes and the diagonals of the coordinate planes; solids of revolution need the diagonals.
 _NORMALS = tuple(
     tuple(direction / np.linalg.norm(direction))
     for direction in np.array(
@@ -41,19 +41,19 @@ def convex_parts(
 ) -> list[Manifold]:
     """Cover solids with convex hulls that leave their hollows open.
 
-    Starts from the construction parts and cuts, again and again, the piece whose hull holds
-    the most empty space, by the plane that leaves the least. Exact on thin walls, repeatable,
-    and done in seconds where sampling methods (CoACD, V-HACD) take many.
+    Starts from the construction parts and repeatedly cuts the piece whose hull has the most empty
+    space, by the plane that leaves the least. Exact on thin walls, deterministic, and much faster
+    than sampling methods (CoACD, V-HACD).
 
     Args:
         parts: solids in metres; their union is the object.
-        max_parts: most hulls to return.
-        max_gap_m: stop once the hulls' empty space, spread over the parts' surface, is no
-            thicker than this.
+        max_parts: maximum number of hulls.
+        max_gap_m: stop when the hulls' empty space, spread over the parts' surface, is at most
+            this thick.
         tolerance_m: how far vertices may be simplified away, before and after cutting.
-        max_vertices: most vertices of one hull; rounder ones are cut down to their extreme
-            points in as many directions.
-        cut_fractions: where planes are tried, as fractions of a piece's extent.
+        max_vertices: maximum number of vertices of a hull; larger hulls are reduced to their
+            extreme points in this many directions.
+        cut_fractions: positions of trial planes, as fractions of a piece's extent.
 
     Returns:
         Convex solids, largest first.
@@ -86,7 +86,7 @@ def _lighten(hull: Manifold, max_vertices: int) -> Manifold:
 
 
 def _excess(piece: Manifold) -> float:
-    """Return the volume in m3 that the convex hull adds to a piece."""
+    """Return the volume (m3) that the convex hull adds to a piece."""
     return max(piece.hull().volume() - piece.volume(), 0.0)
 
 

@@ -1,4 +1,4 @@
-"""Measured contact maps of a user's object: ContactDB's thermal scans and files like them."""
+"""Measured contact maps of a user's object: ContactDB's thermal scans and similar files."""
 
 from __future__ import annotations
 
@@ -16,10 +16,10 @@ from grasptypes.objects.mesh_limits import check_counts
 
 @dataclass(frozen=True)
 class ContactScan:
-    """How warm a hand has left the points of an object.
+    """How warm a hand left the points of an object.
 
     Attributes:
-        points_m: (N, 3), object frame at the file's own size.
+        points_m: (N, 3), object frame, at the size of the file.
         intensity: (N,) 0 to 1, NaN where the camera saw nothing.
     """
 
@@ -28,7 +28,7 @@ class ContactScan:
 
 
 def read_contact_scan(path: str | Path, metres: float = 1.0) -> ContactScan:
-    """Read a PLY with a colour at every vertex, as ContactDB publishes them.
+    """Read a PLY with vertex colours, as published by ContactDB.
 
     The red channel is the thermal intensity and 0 means unseen (ContactDB, Brahmbhatt et al.
     2019: `<object>_textured.ply`).
@@ -37,7 +37,7 @@ def read_contact_scan(path: str | Path, metres: float = 1.0) -> ContactScan:
         metres: length of the file's unit.
 
     Raises:
-        InputError: no colour a vertex (for example a texture), or nothing seen.
+        InputError: no vertex colours (for example a texture instead), or nothing was seen.
     """
     path = Path(path)
     if path.suffix.lower() != ".ply":
@@ -69,7 +69,7 @@ def _red_channel(path: Path, loaded: trimesh.parent.Geometry) -> NDArray[np.floa
         colours = None
     if colours is None or len(colours) != len(loaded.vertices):
         raise InputError(path, "", "has no vertex colours: the red channel is the contact map")
-    # The file's own numbers: trimesh makes bytes of them, whatever they are.
+    # The numbers in the file: trimesh converts them to bytes, whatever they are.
     stated = np.ravel(loaded.metadata["_ply_raw"]["vertex"]["data"]["red"])
     red, most = stated.astype(np.float64), 1 if stated.dtype.kind == "f" else 255
     if not ((red >= 0) & (red <= most)).all():
@@ -79,7 +79,7 @@ def _red_channel(path: Path, loaded: trimesh.parent.Geometry) -> NDArray[np.floa
 
 
 def _unwrapped(content: bytes) -> bytes:
-    """A PLY whose numbers in text are read as they are: 300 in a byte would become 44."""
+    """A PLY whose text numbers are read unchanged: 300 in a byte would wrap to 44."""
     head, end, body = content.partition(b"end_header")
     if b"format ascii" in head:
         for kind in (b"uchar", b"uint8"):

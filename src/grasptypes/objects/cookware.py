@@ -19,7 +19,7 @@ Rows = tuple[tuple[float, ...], ...]
 
 @dataclass(frozen=True)
 class Pan:
-    """Frying pan, tilted about y as it was scanned, its handle towards +x.
+    """Frying pan, tilted about y as in the scan, with its handle towards +x.
 
     The vessel's heights are along its own axis; the handle's are along z.
 
@@ -79,7 +79,7 @@ def pan(size: Pan = Pan()) -> ObjectModel:
 
 
 def _pan_profiles(size: Pan) -> tuple[sections.Curve, sections.Curve]:
-    """Return the (radius, height) polygons of the upright body and of the bead on its rim."""
+    """Return the (radius, height) polygons of the upright body and of its rim bead."""
     middle_m = size.rim_height_m - size.bead_height_m / 2
     corner = sections.arc(
         (size.floor_radius_m, size.bottom_height_m + size.corner_radius_m),
@@ -101,7 +101,7 @@ def _pan_profiles(size: Pan) -> tuple[sections.Curve, sections.Curve]:
 
 
 def _pan_handle(size: Pan) -> Manifold:
-    """Loft the handle along x, round its end in plan and cut the hanging hole."""
+    """Loft the handle along x, round its end in plan view, and cut the hole for hanging it."""
     rows = np.asarray(size.handle_stations_m)
     stations = np.linspace(rows[0, 0], rows[-1, 0], 40)
     outlines = []
@@ -109,7 +109,7 @@ def _pan_handle(size: Pan) -> Manifold:
         outline = sections.superellipse(
             (high - low) / 2, size.handle_width_m / 2, size.handle_edge_exponent, 48
         )
-        # Lofted along x, the outline's first axis points to -z.
+        # When lofting along x, the first axis of the outline points to -z.
         outlines.append(outline - [(low + high) / 2, 0.0])
     bar = solids.stack(outlines, stations, axis="x")
     half = size.handle_width_m / 2

@@ -65,7 +65,7 @@ def mouse(size: Mouse = Mouse()) -> ObjectModel:
     zone = _mouse_buttons_zone(size)
     seams = _mouse_seams(size) - core
     skin = solids.difference(shell, seams, well)
-    # The core joins what the seams part, and overlaps the buttons from below.
+    # The core joins what the seams separate, and overlaps the buttons from below.
     body = (skin - zone) + (core - well)
     lids = (skin ^ zone) - _mouse_shell(size, 1.2 * size.seam_depth_m)
     right, left = solids.slabs(lids, [0.0], "y")
@@ -79,7 +79,7 @@ def mouse(size: Mouse = Mouse()) -> ObjectModel:
 
 
 def _mouse_shell(size: Mouse, inset_m: float = 0.0) -> Manifold:
-    """Return the outer form, or one that lies `inset_m` deeper."""
+    """Return the outer shape, inset by `inset_m`."""
     stations, values = lofts.interpolate_stations(size.stations, count=72)
     outlines = [
         lofts.crowned_section(half, base, ridge, exponent, min(size.crown_m, 0.2 * (ridge - base)))
@@ -120,7 +120,7 @@ def _mouse_seams(size: Mouse) -> Manifold:
 
 
 def _mouse_wheel(size: Mouse, gap_m: float = 0.0) -> Manifold:
-    """Return the wheel's visible segment, or with a gap the well it runs in."""
+    """Return the visible segment of the wheel or, with a gap, the well it turns in."""
     radius_m, half_m = size.wheel_radius_m + gap_m, size.wheel_half_width_m + gap_m
     rim = sections.superellipse(radius_m, half_m, 3.2, 64)
     wheel = solids.revolve(rim[rim[:, 0] >= -1e-9], axis="y", segments=96).translate(
@@ -241,7 +241,7 @@ def _stapler_magazine(size: Stapler) -> Manifold:
 def _stapler_cover(size: Stapler) -> Manifold:
     """Return the channel-shaped cover, open towards the magazine."""
     side = np.asarray(size.cover_side)
-    # Extruded along -y, a polygon lies in (x, z).
+    # When extruded along -y, a polygon is in (x, z).
     channel = solids.extrude(side, size.cover_width_m, axis="-y")
     inside = solids.extrude(side, size.cover_width_m - 2 * size.cover_wall_m, axis="-y")
     front_m = 0.6 * size.cover_wall_m

@@ -1,4 +1,4 @@
-"""Signed distance to an object on a regular grid, for fast batched look-ups."""
+"""Signed distance to an object on a regular grid, for fast batched lookups."""
 
 from __future__ import annotations
 
@@ -35,8 +35,8 @@ class DistanceGrid:
     ) -> DistanceGrid:
         """Sample the distance to a mesh (V, 3), (F, 3) up to a margin around its bounds.
 
-        The sign comes from the nearest face of a closed mesh, and from the winding number of
-        any other, so that small holes in a scan do no harm.
+        The sign comes from the nearest face for a closed mesh, and from the winding number
+        otherwise, so that small holes in a scan do no harm.
         """
         points_m = np.ascontiguousarray(vertices, dtype=np.float64)
         triangles = np.ascontiguousarray(faces, dtype=np.int64)
@@ -48,7 +48,7 @@ class DistanceGrid:
 
     @classmethod
     def load(cls, path: str | Path) -> DistanceGrid:
-        """Read a grid; raises InputError if the file is not one."""
+        """Read a grid; raises InputError if the file is not a grid."""
         arrays = read_npz(path)
         missing = {"values", "origin_m", "spacing_m"} - set(arrays)
         if missing:
@@ -67,17 +67,17 @@ class DistanceGrid:
         )
 
     def distance(self, points_m: ArrayLike) -> Array:
-        """Return trilinear signed distances (...) in metres of points (..., 3).
+        """Return trilinear signed distances (...) in metres at points (..., 3).
 
-        Outside the grid: the value at the nearest point of its box plus the distance to it.
+        Outside the grid: the value at the nearest point of its box, plus the distance to that.
         """
         return self.distance_and_gradient(points_m)[0]
 
     def distance_and_gradient(self, points_m: ArrayLike) -> tuple[Array, Array]:
         """Return distances (...) and their gradients (..., 3) with respect to the points.
 
-        The gradient is that of the interpolant, so it has unit length only approximately; it
-        points away from the object. Outside the grid it is the direction from the box.
+        The gradient is that of the interpolant, so its length is only approximately 1; it points
+        away from the object. Outside the grid it points away from the box.
         """
         points = np.asarray(points_m, dtype=np.float64)
         last = np.array(self.values.shape) - 1
@@ -105,9 +105,9 @@ class DistanceGrid:
 def signed_distance(points_m: ArrayLike, vertices: ArrayLike, faces: ArrayLike) -> Array:
     """Exact distances (n,) of points (n, 3) to a mesh (V, 3), (F, 3), metres, negative inside.
 
-    The sign comes from the nearest face of a closed mesh. On any other, such as a scan with holes,
-    inside is where the winding number exceeds a half (libigl's own combination of the two
-    multiplies the distance by 1 - 2w, which is no distance where w is neither 0 nor 1).
+    The sign comes from the nearest face for a closed mesh. Otherwise, for example for a scan with
+    holes, a point is inside where the winding number w exceeds 1/2 (libigl's own combination
+    multiplies the distance by 1 - 2w, which is not a distance unless w is 0 or 1).
     """
     points = np.ascontiguousarray(points_m, dtype=np.float64)
     corners = np.ascontiguousarray(vertices, dtype=np.float64)

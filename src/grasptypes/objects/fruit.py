@@ -1,4 +1,4 @@
-"""Apple and banana; ContactDB publishes no mesh of them, so they follow usual market sizes."""
+"""Apple and banana; ContactDB has no mesh of them, so they have common market sizes."""
 
 from dataclasses import dataclass
 

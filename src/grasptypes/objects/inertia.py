@@ -9,17 +9,17 @@ from numpy.typing import ArrayLike, NDArray
 
 Array = NDArray[np.float64]
 
-# Quadrature exact to degree 2 on a tetrahedron: four points, one nearer each corner.
+# Quadrature on a tetrahedron, exact to degree 2: four points, one near each corner.
 _NEAR, _FAR = (5 + 3 * 5**0.5) / 20, (5 - 5**0.5) / 20
 
 
 @dataclass(frozen=True)
 class PointMasses:
-    """Weighted points that have a body's exact mass, centre of mass and inertia.
+    """Weighted points with exactly the mass, centre of mass and inertia of a body.
 
     Attributes:
         points_m: (N, 3).
-        masses_kg: (N,), negative where a signed volume is.
+        masses_kg: (N,), negative for negative signed volumes.
     """
 
     points_m: Array

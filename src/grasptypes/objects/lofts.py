@@ -1,4 +1,4 @@
-"""Bodies lofted along a coordinate axis through sections that change smoothly (metres)."""
+"""Bodies lofted along a coordinate axis through smoothly changing sections (metres)."""
 
 from collections.abc import Sequence
 
@@ -28,12 +28,12 @@ def loft_along(axis: str, stations_m: ArrayLike, outlines: Sequence[ArrayLike]) 
         np.asarray(stations_m, dtype=np.float64)[:, None],
         axis=2,
     )
-    # x, z is left-handed seen along y.
+    # (x, z) is left-handed when seen along y.
     return solids.loft(rings[:, ::-1] if axis == "y" else rings)
 
 
 def interpolate_stations(table: ArrayLike, count: int = 40) -> tuple[Array, Array]:
-    """Interpolate a table of stations without overshoot, densest at its two ends.
+    """Interpolate a table of stations without overshoot, with the densest samples at both ends.
 
     Args:
         table: (K, 1 + D) rows of a position and D values there, positions increasing.
@@ -51,7 +51,7 @@ def interpolate_stations(table: ArrayLike, count: int = 40) -> tuple[Array, Arra
 def even_superellipse(
     half_x_m: float, half_y_m: float, exponent: float, samples: int = 64
 ) -> Array:
-    """Trace a superellipse counter-clockwise with points evenly spread along its length."""
+    """Trace a superellipse counter-clockwise with points evenly spaced along its length."""
     dense = sections.superellipse(half_x_m, half_y_m, exponent, 1024)
     closed = np.vstack([dense, dense[:1]])
     length = np.concatenate([[0], np.cumsum(np.linalg.norm(np.diff(closed, axis=0), axis=1))])

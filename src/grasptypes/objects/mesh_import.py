@@ -1,4 +1,4 @@
-"""A user's own mesh: read, checked, mended and made into an object model."""
+"""A user's own mesh: read, checked, repaired and turned into an object model."""
 
 from __future__ import annotations
 
@@ -35,10 +35,10 @@ class ImportedModel:
     """A user's object at the size of its file in metres.
 
     Attributes:
-        model: one part `body`, or one a named geometry of a GLB.
-        scale: size to prepare it at.
-        mass_kg: given mass, None if the density decides.
-        repairs: what was mended, in words.
+        model: one part `body`, or one part per named geometry of a GLB.
+        scale: scale to prepare it at.
+        mass_kg: given mass, None if the density determines it.
+        repairs: descriptions of the repairs.
     """
 
     model: ObjectModel
@@ -48,14 +48,14 @@ class ImportedModel:
 
 
 def import_model(own: Mapping[str, Any], limits: ImportLimits) -> ImportedModel:
-    """Make a model of a block `objects.own.<name>` of the parameters.
+    """Make a model from a block `objects.own.<name>` of the parameters.
 
     Args:
         own: file, unit, and optionally scale, density_kg_m3 or mass_kg, shell_thickness_m.
-        limits: what the mesh must meet.
+        limits: requirements on the mesh.
 
     Raises:
-        InputError: one line that says why the mesh cannot be used.
+        InputError: the mesh cannot be used; the message says why.
     """
     path, unit, scale = own["file"], own["unit"], own.get("scale", 1.0)
     meshes = _read(path, UNITS_M[unit], limits)
@@ -68,16 +68,16 @@ def import_model(own: Mapping[str, Any], limits: ImportLimits) -> ImportedModel:
             parts.append(Part(name, solid, GREY))
     if len(parts) < len(meshes):
         whole = _tidy(trimesh.util.concatenate(list(meshes.values())), [])
-        repairs = []  # what was mended on the way does not show in the rebuilt surface
+        repairs = []  # earlier repairs have no effect on the rebuilt surface
         parts = [Part("body", _rebuild(path, whole, limits, repairs), GREY)]
     check_volume(path, sum(part.solid.volume() for part in parts), meshes, limits)
-    # With a given mass any density will do: the inertia is scaled to the mass.
+    # If the mass is given, any density works: the inertia is scaled to the mass.
     model = ObjectModel(tuple(parts), own.get("density_kg_m3", 1e3), own.get("shell_thickness_m"))
     return ImportedModel(model, scale, own.get("mass_kg"), tuple(dict.fromkeys(repairs)))
 
 
 def _read(path: str | Path, metres: float, limits: ImportLimits) -> dict[str, trimesh.Trimesh]:
-    """Read the geometries of a mesh file by name, in metres; a single one is the `body`."""
+    """Read the geometries of a mesh file by name, in metres; a single one is called `body`."""
     path = Path(path)
     if path.suffix.lower() not in FORMATS:
         raise InputError(path, "", f"is not a supported mesh format ({', '.join(FORMATS)})")
@@ -107,7 +107,7 @@ def _read(path: str | Path, metres: float, limits: ImportLimits) -> dict[str, tr
 
 
 def _check_corners(path: Path, mesh: trimesh.Trimesh) -> None:
-    """Refuse faces of vertices that are not there; raises InputError."""
+    """Reject faces with missing vertices; raises InputError."""
     count = len(mesh.vertices)
     missing = mesh.faces[(mesh.faces < 0) | (mesh.faces >= count)]
     if len(missing):
@@ -128,9 +128,9 @@ def _placed(scene: trimesh.Scene) -> dict[str, trimesh.Trimesh]:
 
 
 def _mended(mesh: trimesh.Trimesh, repairs: list[str]) -> Manifold | None:
-    """Return the solid of a mesh, if it closes with or without its degenerate and double faces."""
+    """Return the solid of a mesh if it closes with or without degenerate and duplicate faces."""
     merged = trimesh.Trimesh(mesh.vertices, mesh.faces, process=True)
-    # A face without area may be all that closes a seam, so they only go if they are in the way.
+    # A face without area may close a seam, so these are only dropped if necessary.
     for tidy in (False, True):
         done: list[str] = []
         solid = _solid(_tidy(merged, done) if tidy else merged, done)
@@ -141,7 +141,7 @@ def _mended(mesh: trimesh.Trimesh, repairs: list[str]) -> Manifold | None:
 
 
 def _tidy(mesh: trimesh.Trimesh, repairs: list[str]) -> trimesh.Trimesh:
-    """Merge equal vertices and drop faces without area or that are there twice."""
+    """Merge equal vertices and drop faces that have no area or are duplicates."""
     mesh = trimesh.Trimesh(mesh.vertices, mesh.faces, process=True)
     before = len(mesh.faces)
     mesh.update_faces(mesh.nondegenerate_faces() & mesh.unique_faces())
@@ -152,7 +152,7 @@ def _tidy(mesh: trimesh.Trimesh, repairs: list[str]) -> trimesh.Trimesh:
 
 
 def _solid(mesh: trimesh.Trimesh, repairs: list[str]) -> Manifold | None:
-    """Return the union of a mesh's bodies, or None if one of them does not close."""
+    """Return the union of a mesh's bodies, or None if one of them is not closed."""
     bodies = mesh.split(only_watertight=False)
     pieces = []
     for body in bodies:
@@ -178,7 +178,7 @@ def _solid(mesh: trimesh.Trimesh, repairs: list[str]) -> Manifold | None:
 def _rebuild(
     path: str | Path, mesh: trimesh.Trimesh, limits: ImportLimits, repairs: list[str]
 ) -> Manifold:
-    """Rebuild the surface of what a leaky mesh encloses, judged by the winding number."""
+    """Rebuild the surface of the volume that a leaky mesh encloses by its winding number."""
     spacing_m = float(mesh.extents.max()) / limits.rebuild_cells
     origin_m = mesh.bounds[0] - 3 * spacing_m
     shape = np.ceil((mesh.bounds[1] - origin_m) / spacing_m).astype(int) + 4
@@ -202,7 +202,7 @@ def _rebuild(
 def _marched(values: NDArray[np.float64], nodes: NDArray[np.float64]) -> Manifold:
     """Return the solid of negative values (nx, ny, nz) at nodes (nx * ny * nz, 3)."""
     nx, ny, nz = values.shape
-    # libigl's grids run fastest along x.
+    # In libigl's grids, x varies fastest.
     order = np.arange(nodes.shape[0]).reshape(values.shape).transpose(2, 1, 0).reshape(-1)
     vertices, faces = igl.marching_cubes(
         np.ascontiguousarray(values.reshape(-1)[order], dtype=np.float64),

@@ -1,4 +1,4 @@
-"""What a user's mesh must meet."""
+"""Requirements on a user's mesh."""
 
 from __future__ import annotations
 
@@ -17,17 +17,17 @@ Meshes = Mapping[str, trimesh.Trimesh]
 
 @dataclass(frozen=True)
 class ImportLimits:
-    """What a mesh must meet, and how one with holes is rebuilt.
+    """Requirements on a mesh, and how one with holes is rebuilt.
 
     Attributes:
         min_size_m, max_size_m: allowed longest extent after unit and scale.
-        max_box_m3: allowed volume of the bounding box, which the distance grid fills.
+        max_box_m3: allowed volume of the bounding box, which the distance grid covers.
         rebuild_cells: cells along the longest extent when a surface is rebuilt.
-        max_open_share: share of the enclosed space whose winding number is far from whole,
-            above which a mesh counts as an open shell.
-        max_faces: of all its geometries together.
-        max_file_mb: larger files are not even opened.
-        min_volume_share: of the cube of the longest extent; what has less is flat.
+        max_open_share: share of the enclosed space with a winding number far from an integer, above
+            which a mesh counts as an open shell.
+        max_faces: of all geometries together.
+        max_file_mb: larger files are not opened.
+        min_volume_share: of the cube of the longest extent; a mesh with less counts as flat.
     """
 
     min_size_m: float
@@ -41,7 +41,7 @@ class ImportLimits:
 
 
 def check_file(path: Path, limits: ImportLimits) -> None:
-    """Refuse a file that is too large to be read, or half an STL; raises InputError."""
+    """Reject a file that is too large to read, or a truncated STL; raises InputError."""
     size_mb = path.stat().st_size / 1e6
     if size_mb > limits.max_file_mb:
         message = f"has {size_mb:.0f} MB; the limit is {limits.max_file_mb:g} MB: simplify the mesh"
@@ -51,7 +51,7 @@ def check_file(path: Path, limits: ImportLimits) -> None:
 
 
 def check_counts(path: Path, loaded: trimesh.parent.Geometry) -> None:
-    """Refuse a PLY that holds less than its header states; raises InputError."""
+    """Reject a PLY with less content than its header says; raises InputError."""
     stated = loaded.metadata.get("_ply_raw", {})
     for name, held in (("vertex", loaded.vertices), ("face", getattr(loaded, "faces", ()))):
         count = stated.get(name, {}).get("length", 0)
@@ -64,7 +64,7 @@ def check_counts(path: Path, loaded: trimesh.parent.Geometry) -> None:
 
 
 def _check_stl(path: Path) -> None:
-    """A whole STL has the length that its count of faces asks for, or ends in text as it should."""
+    """A complete STL has the length given by its face count, or ends correctly as text."""
     with path.open("rb") as file:
         head = file.read(84)
         file.seek(max(path.stat().st_size - 1000, 0))
@@ -77,7 +77,7 @@ def _check_stl(path: Path) -> None:
 
 
 def check_faces(path: str | Path, meshes: Meshes, limits: ImportLimits) -> None:
-    """Refuse more faces than can be worked on; raises InputError."""
+    """Reject meshes with too many faces; raises InputError."""
     faces = sum(len(mesh.faces) for mesh in meshes.values())
     if faces > limits.max_faces:
         message = f"has {faces} faces; the limit is {limits.max_faces}: simplify the mesh"
@@ -87,7 +87,7 @@ def check_faces(path: str | Path, meshes: Meshes, limits: ImportLimits) -> None:
 def check_size(
     path: str | Path, meshes: Meshes, unit: str, scale: float, limits: ImportLimits
 ) -> None:
-    """Refuse what no hand could hold, and name the unit that would fit; raises InputError."""
+    """Reject sizes that no hand can hold, and name the unit that would fit; raises InputError."""
     bounds = np.array([mesh.bounds for mesh in meshes.values()])
     extents_m = scale * (bounds[:, 1].max(axis=0) - bounds[:, 0].min(axis=0))
     size_m = float(extents_m.max())
@@ -111,7 +111,7 @@ def check_size(
 
 
 def check_volume(path: str | Path, volume_m3: float, meshes: Meshes, limits: ImportLimits) -> None:
-    """Refuse what closes but is flat; raises InputError."""
+    """Reject closed but flat meshes; raises InputError."""
     extent_m = max(float(mesh.extents.max()) for mesh in meshes.values())
     if volume_m3 < limits.min_volume_share * extent_m**3:
         raise InputError(path, "", "encloses no volume: it is flat")

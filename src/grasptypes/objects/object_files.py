@@ -1,4 +1,4 @@
-"""The files of a prepared object in data/objects/{object}: what writes them and reads them."""
+"""Reading and writing the files of a prepared object in data/objects/{object}."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ DISTANCE_GRID, PROPERTIES = "distance_grid.npz", "properties.json"
 
 @dataclass(frozen=True)
 class Surface:
-    """An object's surface, evenly meshed for maps with one value a vertex (object frame).
+    """An object's surface, evenly meshed for maps with one value per vertex (object frame).
 
     Attributes:
         vertices: (V, 3) float64, metres.
@@ -36,15 +36,15 @@ class Surface:
 
 @dataclass(frozen=True)
 class Properties:
-    """What the physics needs to know of an object; SI units, object frame.
+    """Physical properties of an object; SI units, object frame.
 
     Attributes:
         inertia_kg_m2: 3 rows of 3, about the centre of mass.
-        density_kg_m3: of the material; with parts of several materials, of the main one.
+        density_kg_m3: of the material, or of the main one of several.
         shell_thickness_m: None if the object is solid.
         volume_m3: inside the outer surface.
         bounds_m: lowest and highest corner.
-        repairs: what was mended on a user's mesh, in words; empty for the catalogue's objects.
+        repairs: descriptions of repairs to a user's mesh; empty for the catalogue's objects.
     """
 
     object: str
@@ -88,7 +88,7 @@ def write_properties(path: str | Path, properties: Properties) -> None:
 
 
 def read_properties(path: str | Path) -> dict[str, Any]:
-    """Read the properties by name; see `Properties`. Raises InputError if it is no such file."""
+    """Read the properties by name; see `Properties`. Raises InputError for any other file."""
     try:
         properties = json.loads(Path(path).read_text(encoding="utf-8"))
     except (OSError, ValueError) as error:
@@ -102,7 +102,7 @@ def read_properties(path: str | Path) -> dict[str, Any]:
 def write_collision(
     path: str | Path, hulls: list[tuple[NDArray[np.float64], NDArray[np.int32]]]
 ) -> None:
-    """Write convex parts, (V, 3) vertices in metres and (F, 3) faces, as one OBJ group each."""
+    """Write convex parts, (V, 3) vertices in metres and (F, 3) faces, one OBJ group each."""
     lines, first = [], 1
     for index, (vertices, faces) in enumerate(hulls):
         lines.append(f"o part_{index}")

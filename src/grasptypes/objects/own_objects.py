@@ -1,4 +1,4 @@
-"""A user's own objects: the files they name, and that every object is held somehow."""
+"""A user's own objects: checks of their files, and that every object has a way to be held."""
 
 from __future__ import annotations
 
@@ -10,10 +10,10 @@ from grasptypes.settings.objects import ObjectSettings
 
 
 def check_own_objects(objects: ObjectSettings, path: str | Path = "params.yaml") -> None:
-    """Check that the files that `objects.own` names are there.
+    """Check that the files named by `objects.own` exist.
 
     Raises:
-        InputError: naming the key of the first that is not.
+        InputError: names the key of the first missing file.
     """
     for name, own in objects.own.items():
         files = {f"contact_maps.{task}": file for task, file in own.contact_maps.items()}
@@ -23,7 +23,7 @@ def check_own_objects(objects: ObjectSettings, path: str | Path = "params.yaml")
 
 
 def measured_map(objects: ObjectSettings, name: str, task: str) -> str | None:
-    """Path of the contact map measured on an own object for a task, if there is one."""
+    """Path of the measured contact map of an own object for a task, if any."""
     return objects.own[name].contact_maps.get(task) if name in objects.own else None
 
 
@@ -33,14 +33,14 @@ def check_every_hold(
     holds: Collection[tuple[str, str]],
     table: str | Path,
 ) -> None:
-    """Check that every object is known to be held somehow for every task.
+    """Check that every object has a way to be held for every task.
 
     Args:
-        holds: object and task of the affinity table's rows.
+        holds: the rows of the affinity table by object and task.
         table: path of the affinity table.
 
     Raises:
-        InputError: naming the first object and task without rows and without a measured map.
+        InputError: names the first object and task with neither rows nor a measured map.
     """
     for name in [*objects.names, *objects.own]:
         for task in tasks:

@@ -1,4 +1,4 @@
-"""What an object is made of: named solids with a material, and how heavy the whole is."""
+"""Object models: named solids with materials and densities."""
 
 from dataclasses import dataclass
 
@@ -7,7 +7,7 @@ from manifold3d import Manifold
 
 @dataclass(frozen=True)
 class Material:
-    """A surface as glTF's metallic-roughness model sees it.
+    """A surface in glTF's metallic-roughness model.
 
     Attributes:
         base_color: red, green, blue (sRGB) and opacity, each 0 to 1.
@@ -24,8 +24,8 @@ class Material:
 class Part:
     """A named solid (metres, object frame at scale 1) of one material.
 
-    Parts may overlap: the object is their union, and each part owns what it shows of it.
-    `density_kg_m3` is set where the part is of heavier or lighter stuff than the object.
+    Parts may overlap: the object is their union, and each part owns its visible surface.
+    `density_kg_m3` is set if the part's material is heavier or lighter than the object's.
     """
 
     name: str
@@ -41,7 +41,7 @@ class ObjectModel:
     Attributes:
         parts: the solids whose union is the object.
         density_kg_m3: density of the walls (with a shell thickness) or of the whole solid.
-        shell_thickness_m: wall thickness if the real thing is hollow where the model is solid.
+        shell_thickness_m: wall thickness if the real object is hollow and the model solid.
     """
 
     parts: tuple[Part, ...]

@@ -17,7 +17,7 @@ LIGHT_KEYS = Material((0.88, 0.90, 0.90, 1.0), roughness=0.5)
 
 @dataclass(frozen=True)
 class CellPhone:
-    """Bar phone of about 2000: antenna +x, keys and screen +z.
+    """Bar phone from about the year 2000: antenna +x, keys and screen +z.
 
     Attributes:
         stations: rows of x, half width along y, z of the back's middle, z of the front's middle.
@@ -87,7 +87,7 @@ def cell_phone(size: CellPhone = CellPhone()) -> ObjectModel:
 
 
 def _phone_shell(size: CellPhone, raise_m: float = 0.0) -> Manifold:
-    """Return the whole case, its front lifted by `raise_m`."""
+    """Return the whole case, with its front raised by `raise_m`."""
     stations, values = lofts.interpolate_stations(size.stations, count=64)
     outlines = [
         lofts.crowned_section(

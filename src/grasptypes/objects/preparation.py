@@ -1,4 +1,4 @@
-"""From an object's model to the files that contact maps, grasps and pictures are made from."""
+"""From an object model to the files behind contact maps, grasps and renders."""
 
 from __future__ import annotations
 
@@ -53,8 +53,8 @@ def prepare(
     """Write an object's five files (see `object_files`) at `scale` times the model's size.
 
     Args:
-        mass_kg: replaces the mass that follows from the densities; the inertia follows suit.
-        repairs: what was mended before, to be kept with the properties.
+        mass_kg: replaces the mass that follows from the densities; the inertia is scaled with it.
+        repairs: earlier repairs, to be stored with the properties.
     """
     folder = Path(folder)
     parts = scaled_parts(model, scale)
@@ -67,7 +67,7 @@ def prepare(
         resolution.collision_tolerance_m,
         resolution.collision_max_vertices,
     )
-    # A twentieth of the spacing is lost between the nodes anyway.
+    # A twentieth of the spacing is lost between nodes anyway.
     outline = solids.to_mesh(joined(parts).simplify(resolution.grid_spacing_m / 20))
     grid = DistanceGrid.from_mesh(*outline, resolution.grid_spacing_m, resolution.grid_margin_m)
     object_files.write_surface(folder / object_files.SURFACE, surface)
@@ -81,7 +81,7 @@ def prepare(
 
 
 def scaled_parts(model: ObjectModel, scale: float) -> list[Part]:
-    """Return the model's parts at `scale`, each an original whose faces can be traced."""
+    """Return the model's parts at `scale`, as manifold3d originals whose faces can be traced."""
     return [
         Part(
             part.name,
@@ -108,9 +108,9 @@ def face_parts(solid: Manifold, parts: list[Part]) -> NDArray[np.int16]:
 
 
 def part_surface(parts: list[Part], tolerance_m: float, edge_m: float) -> Surface:
-    """Mesh the union evenly and name each vertex's part; parts of one name count as one.
+    """Mesh the union evenly and find each vertex's part; parts with the same name count as one.
 
-    A vertex between parts goes to the one named first.
+    A vertex between parts belongs to the first of them.
     """
     solid = joined(parts).simplify(tolerance_m).refine_to_length(edge_m)
     vertices, faces = solids.to_mesh(solid)
@@ -129,7 +129,7 @@ def physical_properties(
     mass_kg: float | None = None,
     repairs: tuple[str, ...] = (),
 ) -> Properties:
-    """Weigh the model: its whole volume, or its surface if it has a shell thickness."""
+    """Mass properties of the model's volume, or of its surface if it has a shell thickness."""
     parts = scaled_parts(model, scale)
     densities = [part.density_kg_m3 or model.density_kg_m3 for part in parts]
     solid = joined(parts)
@@ -161,7 +161,7 @@ def physical_properties(
 
 
 def visual_glb(parts: list[Part], crease_deg: float) -> bytes:
-    """Return a binary glTF of what each part shows of the union, with smooth normals."""
+    """Return a binary glTF of the visible surface of each part, with smooth normals."""
     solid = joined(parts).calculate_normals(0, crease_deg)
     mesh = solid.to_mesh64()
     vertices, normals = np.split(np.asarray(mesh.vert_properties)[:, :6], 2, axis=1)
@@ -183,7 +183,7 @@ def visual_glb(parts: list[Part], crease_deg: float) -> bytes:
 
 
 def _pbr(name: str, material: Material) -> trimesh.visual.material.PBRMaterial:
-    """The material in glTF's terms, whose colours are linear (glTF 2.0, section 3.9.2)."""
+    """The material for glTF, whose colours are linear (glTF 2.0, section 3.9.2)."""
     *srgb, opacity = material.base_color
     encoded = np.array(srgb)
     linear = np.where(encoded <= 0.04045, encoded / 12.92, ((encoded + 0.055) / 1.055) ** 2.4)

@@ -1,4 +1,4 @@
-"""Scans to measure objects by: a folder of `<object>.stl` that the user names, if there is one."""
+"""Reference scans of objects: an optional folder of `<object>.stl` named by the user."""
 
 from __future__ import annotations
 
@@ -11,10 +11,10 @@ REFERENCES = "GRASPTYPES_REFERENCE_MESHES"
 
 
 def reference_meshes(environment: Mapping[str, str]) -> list[Path]:
-    """The scans in the folder that the environment names, by name; none if it names none.
+    """The scans in the folder named by the environment, sorted by name; empty if none is named.
 
     Raises:
-        InputError: what is named is no folder of scans.
+        InputError: the path is not a folder of scans.
     """
     named = environment.get(REFERENCES, "")
     if not named:

@@ -1,4 +1,4 @@
-"""Plane curves and polygons (metres): what solids are revolved, extruded, lofted and swept from."""
+"""Plane curves and polygons (metres) to revolve, extrude, loft and sweep."""
 
 from collections.abc import Sequence
 
@@ -14,7 +14,7 @@ def smooth_curve(points: ArrayLike, samples: int = 48, closed: bool = False) -> 
 
     Args:
         points: (K, D) control points, K >= 2.
-        samples: number of points to return, evenly spread over the chord length.
+        samples: number of points to return, evenly spaced in chord length.
         closed: join the last control point to the first; the joint is not repeated.
 
     Returns:
@@ -95,7 +95,7 @@ def rounded_rectangle(
 def offset_curve(curve: ArrayLike, distance_m: float) -> Curve:
     """Move each point of a (N, 2) open curve to the left of its direction of travel.
 
-    The curve should bend with radii above the distance, or the result folds over.
+    The curve should bend with radii above the distance; otherwise the result folds over.
     """
     points = np.asarray(curve, dtype=np.float64)
     tangents = np.gradient(points, axis=0)
@@ -104,7 +104,7 @@ def offset_curve(curve: ArrayLike, distance_m: float) -> Curve:
 
 
 def wall_profile(outer: ArrayLike, inner: ArrayLike) -> Curve:
-    """Close a vessel's wall: up the outer (radius, height) curve, down the inner one.
+    """Outline of a vessel's wall: up the outer (radius, height) curve, down the inner one.
 
     Both curves run from the axis (radius 0) at the bottom to the rim.
 

@@ -1,4 +1,4 @@
-"""How close one shape comes to another: Chamfer distance of surfaces, overlap of volumes."""
+"""Comparison of two shapes: Chamfer distance of the surfaces, IoU of the volumes."""
 
 from __future__ import annotations
 
@@ -19,11 +19,11 @@ from grasptypes.objects import object_files
 
 Array = NDArray[np.float64]
 
-# How far off a face its two sides are told apart; far below any wall, far above rounding.
+# Offset from a face at which its two sides are probed; far below any wall, far above rounding.
 SIDE_OFFSET_M = 2e-5
 
 
-# Millimetres, because readers compare them with a millimetre ruler in mind.
+# In millimetres, the natural scale for readers.
 SHAPE_TABLE = pa.DataFrameSchema(
     {
         "object": pa.Column(str, unique=True),
@@ -38,12 +38,12 @@ SHAPE_TABLE = pa.DataFrameSchema(
 
 @dataclass(frozen=True)
 class ShapeComparison:
-    """Figures of a comparison; the Chamfer distances pool both directions.
+    """Results of a comparison; the Chamfer distances pool both directions.
 
     Attributes:
         chamfer_mm: mean distance from a surface sample to the other surface.
         chamfer_p95_mm: its 95th percentile.
-        iou: volume both share over volume either fills, 0 to 1.
+        iou: volume of the intersection over volume of the union, 0 to 1.
     """
 
     chamfer_mm: float
@@ -57,7 +57,7 @@ def compare(
     surface_samples: int = 20_000,
     volume_samples: int = 300_000,
 ) -> ShapeComparison:
-    """Compare two meshes (metres, same frame); neither needs to be watertight."""
+    """Compare two meshes (metres, same frame); they need not be watertight."""
     there = _distances(sample_surface(model, surface_samples), reference)
     back = _distances(sample_surface(reference, surface_samples), model)
     pooled_mm = 1e3 * np.concatenate([there, back])
@@ -74,14 +74,14 @@ def compare_folder(
     """Compare prepared objects with the references `<object>.stl` (metres, scale 1).
 
     Args:
-        objects: folders as `object_files` describes them; those without a reference are left out.
+        objects: folders as in `object_files`; those without a reference are skipped.
         references: folder of reference meshes.
 
     Returns:
-        A `SHAPE_TABLE`, rounded to what the samples can tell.
+        A `SHAPE_TABLE`, rounded to the precision of the sampling.
 
     Raises:
-        InputError: the folder holds no reference of any of the objects.
+        InputError: the folder has no reference for any of the objects.
     """
     rows = []
     for folder in objects:
@@ -104,9 +104,9 @@ def compare_folder(
 def inside(mesh: trimesh.Trimesh, points_m: Array) -> NDArray[np.bool_]:
     """Tell which of (N, 3) points lie in a mesh, watertight or not.
 
-    A point is inside where the generalised winding number (Jacobson et al. 2013; the fast
-    evaluation of Barill et al. 2018) exceeds one half. Small holes barely change it, bodies
-    that overlap count as one, and the absolute value forgives a scan turned inside out.
+    A point is inside where the generalised winding number (Jacobson et al. 2013; fast evaluation
+    by Barill et al. 2018) exceeds one half. Small holes barely change it, overlapping bodies count
+    as one, and the absolute value allows for scans turned inside out.
     """
     vertices = np.ascontiguousarray(mesh.vertices, dtype=np.float64)
     faces = np.ascontiguousarray(mesh.faces, dtype=np.int64)
@@ -114,10 +114,10 @@ def inside(mesh: trimesh.Trimesh, points_m: Array) -> NDArray[np.bool_]:
 
 
 def sample_surface(mesh: trimesh.Trimesh, count: int) -> Array:
-    """Draw up to `count` points (M, 3), evenly by area, from the boundary of a mesh's inside.
+    """Draw up to `count` points (M, 3), uniformly by area, from the boundary of a mesh's interior.
 
-    Faces with the inside on both sides are buried where bodies overlap: they are no surface
-    and samples on them are dropped.
+    Faces with the interior on both sides are buried where bodies overlap; samples on them are
+    dropped.
     """
     generator = seeds.rng("shape_comparison", "surface")
     points, faces = trimesh.sample.sample_surface(mesh, count, seed=generator)
@@ -128,10 +128,10 @@ def sample_surface(mesh: trimesh.Trimesh, count: int) -> Array:
 
 
 def intersection_over_union(a: trimesh.Trimesh, b: trimesh.Trimesh, samples: int) -> float:
-    """Estimate the volume overlap from about `samples` points, one a cell of a regular grid.
+    """Estimate the IoU from about `samples` points, one per cell of a regular grid.
 
-    The points are jittered within their cells, because walls of a millimetre beat with an
-    unjittered grid of the same spacing.
+    The points are jittered within their cells, because millimetre walls alias with a regular grid
+    of similar spacing.
     """
     lower = np.minimum(a.bounds[0], b.bounds[0])
     extent = np.maximum(a.bounds[1], b.bounds[1]) - lower

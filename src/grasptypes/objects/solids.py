@@ -22,7 +22,7 @@ _FROM_Z = {
 
 
 def from_mesh(vertices: ArrayLike, faces: ArrayLike) -> Manifold:
-    """Make a solid of a closed oriented mesh.
+    """Make a solid from a closed oriented mesh.
 
     Args:
         vertices: (V, 3) points in metres.
@@ -52,7 +52,7 @@ def to_mesh(solid: Manifold) -> tuple[Array, NDArray[np.int32]]:
 
 
 def revolve(profile: ArrayLike, axis: str = "z", segments: int = 96) -> Manifold:
-    """Turn a closed (N, 2) polygon of (radius, height) about an axis through the origin."""
+    """Revolve a closed (N, 2) polygon of (radius, height) about an axis through the origin."""
     polygon = np.asarray(profile, dtype=np.float64)
     return along(CrossSection([polygon], FillRule.NonZero).revolve(segments), axis)
 
@@ -64,7 +64,7 @@ def extrude(
     centred: bool = True,
     holes: Sequence[ArrayLike] = (),
 ) -> Manifold:
-    """Extrude a (N, 2) polygon along an axis, less the polygons in `holes`.
+    """Extrude a (N, 2) polygon along an axis, minus the polygons in `holes`.
 
     Along z the polygon's axes are x and y; see `along` for the others.
     """
@@ -78,7 +78,7 @@ def extrude(
 
 
 def loft(rings: Sequence[ArrayLike] | Array) -> Manifold:
-    """Skin a row of plane rings (K, N, 3) and cap both ends.
+    """Skin a sequence of plane rings (K, N, 3) and cap both ends.
 
     All rings have N points that correspond in order and run counter-clockwise seen
     against the direction of travel, so that their normals point to the next ring.
@@ -186,14 +186,14 @@ def union(*solids: Manifold) -> Manifold:
 
 
 def difference(solid: Manifold, *cutters: Manifold) -> Manifold:
-    """Cut every cutter from a solid."""
+    """Subtract all cutters from a solid."""
     return solid - union(*cutters)
 
 
 def slabs(solid: Manifold, cuts_m: Sequence[float], axis: str = "z") -> list[Manifold]:
-    """Cut a solid at increasing places along x, y or z; returns the slices from low to high.
+    """Cut a solid at increasing positions along x, y or z; returns the slices from low to high.
 
-    Leave the slices untilted: only cuts at one exact height vanish again in their union.
+    Do not tilt the slices: only cuts at exactly the same height vanish in their union.
     """
     normal = tuple(float(name == axis) for name in "xyz")
     slices = []

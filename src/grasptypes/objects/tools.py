@@ -120,11 +120,11 @@ def _hammer_claw(size: Hammer) -> Manifold:
     )
     tip_m, root_m = size.claw_stations[0][0] - 0.001, size.head_start_y_m - 0.001
     half_gap_m = size.claw_gap_m / 2
-    # Extruded along x, a polygon lies in (-z, y).
+    # When extruded along x, a polygon is in (-z, y).
     gap = solids.extrude(
         [(half_gap_m, tip_m), (0.0, root_m), (-half_gap_m, tip_m)], 2 * size.head_width_m, axis="x"
     ).translate((size.head_x_m, 0.0, 0.0))
-    # Keyed into the head, since solids that only touch may stay apart in the union.
+    # Overlaps the head, since solids that only touch may stay separate in the union.
     key = solids.box((0.8 * size.head_width_m, 0.003, 0.8 * size.head_width_m))
     claw = solids.extrude(side, size.head_width_m) - gap
     return claw + key.translate((size.head_x_m, size.head_start_y_m + 0.001, 0.0))
@@ -191,7 +191,7 @@ def _flashlight_body(size: Flashlight) -> tuple[Manifold, Manifold]:
 
 
 def _flashlight_head(size: Flashlight) -> tuple[Manifold, Manifold, Manifold]:
-    """Return the lamp head, the conical reflector set into it and the lens in that."""
+    """Return the lamp head, the conical reflector in it, and the lens."""
     shell = [
         (0.0, size.front_z_m),
         (size.front_radius_m, size.front_z_m),

@@ -23,7 +23,7 @@ class WaterBottle:
     """Filled bottle upright along z, with five feet pressed into its base.
 
     Attributes:
-        groove_start_m, groove_end_m: radius and height of the grooves' ridge line.
+        groove_start_m, groove_end_m: radius and height of the ends of the grooves' ridge line.
     """
 
     body_radius_m: float = 0.0301
@@ -158,7 +158,7 @@ def light_bulb(size: LightBulb = LightBulb()) -> ObjectModel:
 
 
 def _screw_base(size: LightBulb) -> Manifold:
-    """Return the base upright: a sleeve with ridges, as coarse as the scan shows the thread."""
+    """Return the base, upright: a sleeve with ridges as coarse as the thread in the scan."""
     start, end = size.base_start_x_m, size.neck_profile_m[0][1]
     sleeve = sections.chain(
         [(0.0, size.shell_profile_m[-1][1])],

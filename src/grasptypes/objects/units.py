@@ -1,3 +1,3 @@
-"""Length units that a user's files may be in."""
+"""Length units of users' files."""
 
 UNITS_M = {"m": 1.0, "cm": 0.01, "mm": 0.001, "inch": 0.0254}

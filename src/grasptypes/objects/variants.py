@@ -15,21 +15,21 @@ def variant_names(name: str, count: int) -> list[str]:
 
 
 def variant_of(name: str) -> tuple[str, int]:
-    """The object that a name is a variant of, and the variant's number; 0 for the object itself."""
+    """Base object and variant number of a name; 0 for the object itself."""
     found = _NAME.fullmatch(name)
     return (found[1], int(found[2])) if found else (name, 0)
 
 
 def base_of(name: str) -> str:
-    """The object that a name is a variant of; an object is its own."""
+    """Base object of a name; that of an object is itself."""
     return variant_of(name)[0]
 
 
 def all_variants(objects: ObjectSettings) -> list[str]:
-    """Names of the variants that the section `objects` of the parameters asks for."""
+    """Names of all variants in the section `objects` of the parameters."""
     return [variant for name in objects.names for variant in variant_names(name, objects.variants)]
 
 
 def all_objects(objects: ObjectSettings) -> list[str]:
-    """Every object of the parameters: those of the catalogue, their variants, the user's own."""
+    """All objects of the parameters: from the catalogue, their variants, and the user's own."""
     return [*objects.names, *all_variants(objects), *objects.own]

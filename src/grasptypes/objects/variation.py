@@ -15,13 +15,13 @@ from grasptypes.objects.variants import variant_of
 from grasptypes.seeds import rng
 
 Array = NDArray[np.float64]
-# Boxes of parts that meet this closely were cut apart there; designed gaps are far wider.
+# Parts whose boxes meet this closely were cut from one solid; designed gaps are far wider.
 JOINT_M = 1e-9
 
 
 @dataclass(frozen=True)
 class Ranges:
-    """What variants are drawn from, each (low, high); the fields of :class:`Variation`."""
+    """Ranges (low, high) to draw variants from; the fields of :class:`Variation`."""
 
     size: Sequence[float]
     stretch: Sequence[float]
@@ -31,19 +31,18 @@ class Ranges:
 
 @dataclass(frozen=True)
 class Variation:
-    """How a variant differs from its object, whose box of extents is meant by shares.
+    """How a variant differs from its object; shares refer to the object's bounding box.
 
-    Planes across x, y or z stay planes, and those across the tapered axis stay what they are: parts
-    that were cut from one solid keep their common face, and small parts the face they lie on.
+    Planes across x, y or z stay planes, and those across the tapered axis keep their position:
+    parts cut from one solid keep their common face, and small parts stay on the face they lie on.
 
     Attributes:
         size: factor on all lengths, walls included.
         stretch: (3,) a further factor along x, y and z.
-        balance: (3,) how far the middle moves along x, y and z, as a share of the extent: what
-            lies on one side of it grows and what lies on the other shrinks. Below 0.25 nothing
-            is turned over.
-        taper: by which share the section grows from the middle to the upper end of one axis
-            (see :func:`taper_axis`); at the lower end it shrinks by as much.
+        balance: (3,) shift of the middle along x, y and z, as a share of the extent: one side of it
+            grows and the other shrinks. Below 0.25 nothing is inverted.
+        taper: share by which the section grows from the middle to the upper end of one axis
+            (see :func:`taper_axis`) and shrinks towards the lower end.
     """
 
     size: float
@@ -52,7 +51,7 @@ class Variation:
     taper: float
 
     def move(self, points_m: Array, lower_m: Array, upper_m: Array, axis: int) -> Array:
-        """Where points (N, 3) of an object with the box (3,) to (3,), tapered along `axis`, go."""
+        """Map points (N, 3) of an object with the box (3,) to (3,), tapered along `axis`."""
         extent_m, middle_m = upper_m - lower_m, (lower_m + upper_m) / 2
         share = (points_m - lower_m) / extent_m
         share = share + 4.0 * np.asarray(self.balance) * share * (1.0 - share)
@@ -76,7 +75,7 @@ def draw_variation(ranges: Ranges, draw: np.random.Generator) -> Variation:
 def vary(model: ObjectModel, variation: Variation) -> ObjectModel:
     """Return the variant of a model: parts, materials and densities are kept.
 
-    Parts that meet along planes across several axes are torn apart by a taper: it is left out then.
+    A taper would tear apart parts that meet along planes across several axes; it is then skipped.
     """
     varied = _moved(model, variation)
     if variation.taper and _pieces(varied) != _pieces(model):
@@ -89,7 +88,7 @@ def _moved(model: ObjectModel, variation: Variation) -> ObjectModel:
     lower_m, upper_m, axis = boxes[:, 0].min(axis=0), boxes[:, 1].max(axis=0), taper_axis(boxes)
 
     def move(points: Array) -> Array:
-        """Where points (N, 3) of the object lie in the variant."""
+        """Map points (N, 3) of the object to the variant."""
         return variation.move(np.asarray(points), lower_m, upper_m, axis)
 
     parts = tuple(replace(part, solid=part.solid.warp_batch(move)) for part in model.parts)
@@ -99,17 +98,17 @@ def _moved(model: ObjectModel, variation: Variation) -> ObjectModel:
 
 
 def _pieces(model: ObjectModel) -> int:
-    """In how many pieces the union of the parts is."""
+    """Number of pieces of the union of the parts."""
     return len(solids.union(*(part.solid for part in model.parts)).decompose())
 
 
 def taper_axis(boxes_m: Array) -> int:
-    """The axis along which parts were cut from one solid, else the longest.
+    """The axis along which parts were cut from one solid, otherwise the longest axis.
 
-    A cut must stay at one exact place to vanish in the union.
+    A cut must stay at exactly one position to vanish in the union.
 
     Args:
-        boxes_m: (parts, 2, 3) the corners of the parts' boxes.
+        boxes_m: (parts, 2, 3) corners of the parts' bounding boxes.
     """
     lower_m, upper_m = boxes_m[:, None, 0], boxes_m[None, :, 1]
     joints = (np.abs(lower_m - upper_m) < JOINT_M).any(axis=(0, 1))
@@ -118,10 +117,10 @@ def taper_axis(boxes_m: Array) -> int:
 
 
 def build_variant(name: str, ranges: Mapping[str, Sequence[float]], seed: int) -> ObjectModel:
-    """Build a variant of a catalogue object, the same one for the same name and seed.
+    """Build a variant of a catalogue object; name and seed determine it.
 
     Args:
-        name: of the variant, see :mod:`grasptypes.objects.variants`.
+        name: name of the variant, see :mod:`grasptypes.objects.variants`.
         ranges: the fields of :class:`Ranges`.
     """
     base, number = variant_of(name)

@@ -146,7 +146,7 @@ def mug(size: Mug = Mug()) -> ObjectModel:
 
 
 def _mug_handle(size: Mug) -> solids.Manifold:
-    """Sweep half an ellipse, thicker at its roots, and cut it off within the wall."""
+    """Sweep half an ellipse, thicker at its ends, and cut it off inside the wall."""
     turn = np.radians(np.linspace(-100, 100, 49))
     wall_m = size.axis_x_m + size.outer_radius_m
     path = np.column_stack(
@@ -198,7 +198,7 @@ def wine_glass(size: WineGlass = WineGlass()) -> ObjectModel:
     ]
     rim_m = curve[-1, 1]
     hollow[-1, 1] = rim_m
-    # The bowl's root reaches into the stem, as solids that only touch may stay apart.
+    # The bowl overlaps the stem, since solids that only touch may stay separate.
     root_m = size.cavity_height_m - size.stem_radius_m
     outer = sections.chain([(0.0, root_m), (0.98 * size.stem_radius_m, root_m)], curve)
     inner = sections.chain(

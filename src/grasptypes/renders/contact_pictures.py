@@ -1,4 +1,4 @@
-"""Pictures of contact maps on their objects, from two sides."""
+"""Images of contact maps on their objects, from two sides."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ LEVELS = 24
 
 
 def studio_of(renders: Mapping[str, Any], size_px: int) -> Studio:
-    """The studio of the `renders` section for plain pictures: own colours, no shadow."""
+    """The studio of the `renders` section for plain images: original colours, no shadow."""
     shared = {field.name: renders[field.name] for field in fields(Studio)}
     plain = {"size_px": size_px, "colour_randomisation": 0.0, "shadow_strength": 0.0}
     return Studio(**{**shared, **plain})
@@ -36,16 +36,16 @@ def contact_picture(
     camera: Camera,
     params: Mapping[str, Any],
 ) -> NDArray[np.uint8]:
-    """A contact on the mesh, from the two opposite directions of `params`, side by side.
+    """A contact map on the mesh, from two opposite directions side by side.
 
     Args:
-        contact: (N,) values at the map's points, 0 to 1; scaled to their largest for the colours.
+        contact: (N,) values at the map's points, 0 to 1; colours are scaled to the maximum.
         vertices: (V, 3) metres.
         faces: (F, 3) indices.
         params: `azimuth_rad` and `elevation_rad` of the first view, `edge_m` of the finest mesh.
 
     Returns:
-        (H, 2 H, 3) picture.
+        (H, 2 H, 3) image.
     """
     parts = _coloured_parts(contact_map, np.asarray(contact), vertices, faces, params["edge_m"])
     scene, node, _ = camera.scene(parts)
@@ -81,11 +81,11 @@ def look_at(points: Array, azimuth_rad: float, elevation_rad: float, studio: Stu
 def _coloured_parts(
     contact_map: ContactMap, contact: Array, vertices: ArrayLike, faces: ArrayLike, edge_m: float
 ) -> list[Part]:
-    """The mesh cut into pieces of nearly the same contact, each with its colour."""
+    """The mesh cut into pieces of nearly equal contact, each with its colour."""
     fine, triangles = trimesh.remesh.subdivide_to_size(vertices, faces, edge_m, max_iter=20)[:2]
     mesh = trimesh.Trimesh(fine, triangles, process=False)
     centres, normals = mesh.triangles_center, mesh.face_normals
-    # Points of the other side of a thin wall lie as near: they must face the same way to count.
+    # Points on the other side of a thin wall are as close, so only those facing the same way count.
     weight_m = 0.01
     tree = cKDTree(np.hstack([contact_map.points, weight_m * contact_map.normals]))
     distance, nearest = tree.query(np.hstack([centres, weight_m * normals]), k=4)

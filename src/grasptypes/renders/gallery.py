@@ -1,4 +1,4 @@
-"""Pictures of grasps: the hand on its object, seen from where the fingers show."""
+"""Images of grasps: the hand on its object, from a viewpoint that shows the fingers."""
 
 from __future__ import annotations
 
@@ -21,17 +21,17 @@ from grasptypes.seeds import rng
 
 Array = NDArray[np.float64]
 
-# How the hand's materials reflect light; their colours are the hand's own.
+# Reflectance of the hand's materials; their colours are those of the hand model.
 METALLIC = {"aluminium": 0.6}
 ROUGHNESS = {"anodised": 0.45, "aluminium": 0.4, "rubber": 0.9}
-# Edges sharper than this stay edges.
+# Edges sharper than this are shaded as edges.
 CREASE_RAD = 0.6
-# Points on an object that stand for its surface: 5 a cell of the largest one, the pan.
+# Points that represent an object's surface: 5 per cell on the largest object, the pan.
 OBJECT_POINTS = 6000
 
 
 def hand_parts(T_object_hand: ArrayLike, joint_angles_rad: ArrayLike) -> list[Part]:
-    """What the hand shows, posed in the object's frame.
+    """The visible parts of the hand, posed in the object frame.
 
     Args:
         T_object_hand: (4, 4) metres.
@@ -51,7 +51,7 @@ def hand_parts(T_object_hand: ArrayLike, joint_angles_rad: ArrayLike) -> list[Pa
 
 @cache
 def _link_parts() -> tuple[tuple[Part, ...], ...]:
-    """The parts of each link in its own frame, shaded smoothly up to their edges."""
+    """The parts of each link in its frame, with smooth shading between edges."""
     return tuple(tuple(_part(visual) for visual in link) for link in link_visuals())
 
 
@@ -75,7 +75,7 @@ def grasp_picture(
     camera: Camera,
     elevation_rad: float,
 ) -> NDArray[np.uint8]:
-    """A grasp (size, size, 3), from where object and fingers are seen best."""
+    """Image (size, size, 3) of a grasp, from where object and fingers are seen best."""
     parts = [*thing, *hand_parts(T_object_hand, joint_angles_rad)]
     outside = surface_points(thing, OBJECT_POINTS, rng("gallery"))
     hand = finger_points(T_object_hand, joint_angles_rad)

@@ -1,4 +1,4 @@
-"""From where a grasp is seen best: neither hides the object behind the hand nor the other way."""
+"""Best viewpoint of a grasp: neither the object nor the fingers should be hidden."""
 
 from __future__ import annotations
 
@@ -11,8 +11,8 @@ from grasptypes.hand.shapes import surface_points
 Array = NDArray[np.float64]
 
 AZIMUTHS = 24
-# Distance between points on the hand, and width of the cells in which the nearest surface is looked
-# for: wide enough that a surface leaves no cell empty.
+# Distance between points on the hand, and width of the depth-buffer cells: wide enough that a
+# surface leaves no cell empty.
 SPACING_M, CELL_M = 0.006, 0.010
 
 
@@ -33,10 +33,10 @@ def finger_points(T_object_hand: ArrayLike, joint_angles_rad: ArrayLike) -> tupl
 
 
 def best_azimuth(thing: Array, fingers: Array, rest: Array, elevation_rad: float) -> float:
-    """Direction around the object's z from which the most of object and fingers is seen, radians.
+    """Direction around the object's z axis from which object and fingers are seen best, radians.
 
-    Of either that is the area in front of the other, as a share of the largest area it shows from
-    any side; what counts is the product of both shares.
+    For each of the two, the visible area is taken as a share of the largest area it shows from any
+    side; the direction maximises the product of both shares.
 
     Args:
         thing: (N, 3) points on the object, fingers: (n, 3), rest: (m, 3) of the hand.
@@ -50,7 +50,7 @@ def best_azimuth(thing: Array, fingers: Array, rest: Array, elevation_rad: float
 def _areas(
     groups: tuple[Array, Array, Array], azimuth_rad: float, elevation_rad: float
 ) -> tuple[int, int, int, int]:
-    """Cells in which object and fingers are in front, and cells that they fill, hidden or not."""
+    """Cells in which object and fingers are in front, and cells that they cover, hidden or not."""
     sine, cosine = np.sin(azimuth_rad), np.cos(azimuth_rad)
     flat, up = np.cos(elevation_rad), np.sin(elevation_rad)
     axes = np.array([[-sine, cosine, 0.0], [-up * cosine, -up * sine, flat]])

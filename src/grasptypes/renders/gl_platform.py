@@ -1,4 +1,4 @@
-"""Which off-screen OpenGL this machine has, asked without importing OpenGL."""
+"""Find the off-screen OpenGL of this machine without importing OpenGL."""
 
 from __future__ import annotations
 
@@ -14,11 +14,12 @@ _EGL_PLATFORM_DEVICE = 0x313F  # EGL_EXT_platform_device
 
 
 def choose_platform() -> str:
-    """EGL if a display can be opened without a screen, else OSMesa; ``PYOPENGL_PLATFORM`` rules.
+    """EGL if a display can be opened without a screen, else OSMesa; ``PYOPENGL_PLATFORM``
+    overrides.
 
     Raises:
-        InputError: neither works, or not the one asked for; the message names the packages that
-            are missing.
+        InputError: neither works, or not the requested one; the message names the missing
+            packages.
     """
     asked = os.environ.get(PLATFORM_VARIABLE)
     if not asked:
@@ -44,7 +45,7 @@ def _osmesa_works() -> bool:
 
 
 def _egl_works() -> bool:
-    """Whether EGL finds a device and can initialise a display on it, asked without OpenGL."""
+    """Whether EGL finds a device and can initialise a display on it."""
     try:
         egl = ctypes.CDLL(ctypes.util.find_library("EGL") or "libEGL.so.1")
     except OSError:

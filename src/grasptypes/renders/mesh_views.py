@@ -1,4 +1,4 @@
-"""Pictures of a user's mesh, taken as the pictures the predictors have learned from."""
+"""Renders of a user's mesh, made in the same way as the training images."""
 
 from __future__ import annotations
 
@@ -23,10 +23,10 @@ def mesh_views(
     count: int,
     key: str,
 ) -> np.ndarray:
-    """Views (count, S, S, 3) uint8 of a mesh from random sides, which `key` decides.
+    """Views (count, S, S, 3) uint8 of a mesh from random sides, determined by `key`.
 
     Args:
-        own: a block `objects.own.<name>`; mass and density do not show.
+        own: a block `objects.own.<name>`; mass and density have no effect.
         objects, renders: those sections of params.yaml.
 
     Raises:
@@ -41,7 +41,7 @@ def mesh_views(
 
 
 def views(visual: str | Path, renders: Mapping[str, Any], count: int, key: str) -> np.ndarray:
-    """Views (count, S, S, 3) uint8 of a prepared object from random sides, which `key` decides."""
+    """Views (count, S, S, 3) uint8 of a prepared object from random sides, determined by `key`."""
     studio = Studio(**{field.name: renders[field.name] for field in fields(Studio)})
     with Camera(studio) as camera:
         return np.stack(list(camera.views(load_parts(visual), count, key, 0).pictures()))

@@ -1,4 +1,4 @@
-"""A user's own pictures: read with suspicion, and brought to the shape the predictors see."""
+"""A user's own images: validated, and brought to the shape that the predictors expect."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from PIL import Image, ImageOps, UnidentifiedImageError
 
 from grasptypes.errors import InputError
 
-# No format that runs another program (EPS) or holds anything but one picture for the screen.
+# No formats that run another program (EPS) or are not for single screen images.
 FORMATS = ("PNG", "JPEG", "WEBP", "BMP", "TIFF", "GIF", "PPM")
 SUFFIXES = (".png", ".jpg", ".jpeg", ".webp", ".bmp", ".tif", ".tiff", ".gif", ".ppm")
 _MODES = ("1", "L", "P", "RGB", "CMYK", "YCbCr")
@@ -23,7 +23,7 @@ _BROKEN = (OSError, SyntaxError, ValueError, EOFError, IndexError, struct.error,
 
 
 class PhotoLimits(NamedTuple):
-    """Which pictures are taken; the fields are keys of the `predict` section of params.yaml."""
+    """Which images are accepted; the fields are keys of the `predict` section of params.yaml."""
 
     min_px: int
     """Shortest side."""
@@ -34,10 +34,10 @@ class PhotoLimits(NamedTuple):
 
 
 def photo_files(path: str | Path) -> list[Path]:
-    """The file, or the pictures in a folder in the order of their names; hidden ones are none.
+    """The file, or the images in a folder sorted by name, without hidden files.
 
     Raises:
-        InputError: there is nothing there.
+        InputError: there is no image.
     """
     path = Path(path)
     if not path.exists():
@@ -55,21 +55,20 @@ def photo_files(path: str | Path) -> list[Path]:
 
 
 def check_photo(path: str | Path, limits: PhotoLimits) -> None:
-    """Look at a picture's header alone; raises InputError as :func:`read_photo` does."""
+    """Check the header of an image only; raises InputError like :func:`read_photo`."""
     with _opened(path, limits):
         pass
 
 
 def read_photo(path: str | Path, limits: PhotoLimits) -> np.ndarray:
-    """A picture (S, S, 3) uint8, turned upright and padded to a square.
+    """Read an image as (S, S, 3) uint8, turned upright and padded to a square.
 
-    The padding has the border's median colour: the predictors have learned on square pictures,
-    and to squeeze a picture would change the object's proportions.
+    The predictors were trained on square images, and squeezing an image would change the object's
+    proportions. The padding has the median colour of the border.
 
     Raises:
-        InputError: not a picture, a damaged, too small or too large one, several in one file, or
-            one with an alpha channel: what lies behind it is unknown, and a made-up ground would
-            be guesswork.
+        InputError: the file is not an image, is damaged, too small or too large, contains several
+            images, or has an alpha channel (its background is undefined).
     """
     with _opened(path, limits) as opened:
         opened.draft("RGB", (limits.reduce_px, limits.reduce_px))
@@ -81,7 +80,7 @@ def read_photo(path: str | Path, limits: PhotoLimits) -> np.ndarray:
 
 @contextmanager
 def _opened(path: str | Path, limits: PhotoLimits) -> Iterator[Image.Image]:
-    """A picture whose header has been looked at; what goes wrong with it becomes an InputError."""
+    """Open an image and check its header; any error becomes an InputError."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # the size is checked below
         try:
@@ -99,7 +98,7 @@ def _opened(path: str | Path, limits: PhotoLimits) -> Iterator[Image.Image]:
 
 
 def padded(picture: np.ndarray) -> np.ndarray:
-    """A picture (H, W, 3) in the middle of a square of its border's median colour."""
+    """An image (H, W, 3) centred in a square of the median colour of its border."""
     height, width = picture.shape[:2]
     if height == width:
         return picture
@@ -113,14 +112,14 @@ def padded(picture: np.ndarray) -> np.ndarray:
 
 
 def _check(path: str | Path, picture: Image.Image, limits: PhotoLimits) -> None:
-    """Look at the header alone, before anything is decoded."""
+    """Check the header only, before anything is decoded."""
     width, height = picture.size
     if min(width, height) < limits.min_px:
         message = f"is {width} x {height} pixels; each side needs at least {limits.min_px}"
         raise InputError(path, "", message)
     if width * height > limits.max_pixels:
         raise InputError(path, "", f"is {width} x {height} pixels; it {_too_large(limits)}")
-    # A phone's JPEG may carry further pictures (MPO), of which the first is the photograph.
+    # A phone's JPEG may contain further images (MPO); the first one is the photograph.
     if picture.format != "MPO" and getattr(picture, "is_animated", False):
         message = "contains several images (an animation or pages): save the one you mean"
         raise InputError(path, "", message)

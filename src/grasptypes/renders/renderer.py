@@ -1,7 +1,7 @@
-"""Pictures of objects; the only module that imports pyrender and OpenGL.
+"""Rendering of objects; the only module that imports pyrender and OpenGL.
 
-A process that uses torch as well must import torchvision before it makes a :class:`Camera`: Mesa
-and torch's compiler each bring an LLVM, and the process crashes when torch's comes second.
+A process that also uses torch must import torchvision before it creates a :class:`Camera`: Mesa and
+torch's compiler each load an LLVM, and the process crashes if torch's is loaded second.
 """
 
 from __future__ import annotations
@@ -29,24 +29,24 @@ LOGGER = logging.getLogger("grasptypes")
 
 @dataclass(frozen=True)
 class Studio:
-    """How pictures are taken; the fields are the keys of the ``renders`` section of params.yaml.
+    """How images are rendered; the fields are the keys of the ``renders`` section of params.yaml.
 
     Attributes:
-        size_px: height and width of a picture.
-        field_of_view_rad: full angle of the picture.
-        fill: share of the half picture that the object reaches.
+        size_px: height and width of an image.
+        field_of_view_rad: full angle of the image.
+        fill: share of half the image that the object reaches.
         min_distance_radii: closest camera distance in radii of the object.
         colour_randomisation: 0 keeps the materials' colours, 1 draws new ones for every view.
         ambient: linear ambient light.
-        lights: one mapping a light: ``intensity_lux`` and ``direction`` (3,), the way the
-            light travels in the camera frame. The first is the key light, which throws the shadow.
-        background_rgb: (3,) 8-bit colour of the ground at the centre of the picture.
+        lights: one mapping per light: ``intensity_lux`` and ``direction`` (3,), in which the light
+            travels in the camera frame. The first is the key light, which casts the shadow.
+        background_rgb: (3,) 8-bit colour of the ground at the centre of the image.
         vignette: share by which the ground is darker in the corners.
         ground_elevation_rad: angle at which the camera looks down on the ground.
-        shadow_strength: share of light the deepest shadow takes; 0 leaves the shadow out.
+        shadow_strength: share of the light that the deepest shadow removes; 0 disables the shadow.
         shadow_softness_px: standard deviation of the shadow's blur.
-        shadow_fading: the highest point throws exp(-fading) of the lowest point's shadow.
-        shadow_points: surface points that throw the shadow.
+        shadow_fading: the highest point casts exp(-fading) of the lowest point's shadow.
+        shadow_points: surface points that cast the shadow.
         png_compression: zlib level, 0 to 9.
     """
 
@@ -70,13 +70,13 @@ class Studio:
 class Camera:
     """An off-screen OpenGL context and a studio, used for any number of objects.
 
-    The context, the shader programs and the scene of an object are made once and reused for all
-    its views: only poses and colours change between two pictures.
+    The context, the shader programs and the scene of an object are created once and reused for all
+    its views: only poses and colours change between images.
     """
 
     def __init__(self, studio: Studio) -> None:
         self.platform = choose_platform()
-        # PyOpenGL reads the variable at its first import and never again.
+        # PyOpenGL reads the variable only at its first import.
         os.environ[PLATFORM_VARIABLE] = self.platform
         import pyrender
 
@@ -93,7 +93,7 @@ class Camera:
         self._renderer.delete()
 
     def views(self, parts: Sequence[Part], count: int, key: str, seed: int) -> Views:
-        """``count`` random views of an object; the same ones for the same ``key`` and ``seed``."""
+        """``count`` random views of an object, determined by ``key`` and ``seed``."""
         studio = self.studio
         vertices = np.concatenate([part.vertices for part in parts])
         T_object_camera = viewpoints(
@@ -107,7 +107,7 @@ class Camera:
         return Views(self, parts, T_object_camera, key, seed)
 
     def scene(self, parts: Sequence[Part]) -> tuple[pyrender.Scene, pyrender.Node, list[Any]]:
-        """The object, lit by lights that travel with the camera: scene, camera node, materials."""
+        """The object with lights that move with the camera: scene, camera node, materials."""
         pyrender, studio = self._pyrender, self.studio
         scene = pyrender.Scene(bg_color=(0, 0, 0, 0), ambient_light=(studio.ambient,) * 3)
         materials = [_material(pyrender, part) for part in parts]
@@ -128,17 +128,17 @@ class Camera:
         return scene, camera, materials
 
     def shoot(self, scene: pyrender.Scene) -> np.ndarray:
-        """One picture of the scene on black: (size, size, 4) uint8, alpha is the coverage."""
+        """Image of the scene on black: (size, size, 4) uint8, alpha is the coverage."""
         colour, depth_m = self._renderer.render(scene, self._pyrender.RenderFlags.RGBA)
         if colour.shape[-1] == 4:
             return colour
-        # Through OSMesa pyrender hands out no alpha and no smoothed edges.
+        # With OSMesa, pyrender gives neither alpha nor anti-aliasing.
         return np.dstack([colour, np.where(depth_m > 0, 255, 0).astype(np.uint8)])
 
     def compose(
         self, picture: np.ndarray, points: np.ndarray, T_object_camera: np.ndarray
     ) -> np.ndarray:
-        """Lay a picture of :meth:`shoot` over the ground with its shadow: (size, size, 3) uint8."""
+        """Compose an image of :meth:`shoot` with the ground and shadow: (size, size, 3) uint8."""
         studio = self.studio
         ground = (255 - picture[..., 3]) * np.float32(1 / 255)
         if studio.shadow_strength > 0:
@@ -160,7 +160,7 @@ class Camera:
 
 
 class Views:
-    """The views of one object: camera poses now, pictures when they are asked for.
+    """The views of one object: camera poses at once, images on demand.
 
     Attributes:
         T_object_camera: (N, 4, 4).
@@ -178,16 +178,16 @@ class Views:
         self.T_object_camera = T_object_camera
 
     def pictures(self) -> Iterator[np.ndarray]:
-        """Pictures in order, (size, size, 3) uint8 each."""
+        """Images in order, (size, size, 3) uint8 each."""
         return self._finished(self._camera.compose)
 
     def pngs(self) -> Iterator[bytes]:
-        """The pictures as PNG files, in order."""
+        """The images as PNG files, in order."""
         level = self._camera.studio.png_compression
         return self._finished(lambda *view: png_bytes(self._camera.compose(*view), level))
 
     def _finished(self, finish: Any) -> Iterator[Any]:
-        """``finish`` runs beside the drawing of the next view, one view behind it."""
+        """Run ``finish`` on each image while the next view is drawn."""
         count = self._camera.studio.shadow_points
         points = surface_points(self._parts, count, rng("shadow", self._key, self._seed))
         with ThreadPoolExecutor(max_workers=1) as pool:
@@ -213,7 +213,7 @@ class Views:
 
 
 def png_bytes(picture: np.ndarray, compression: int) -> bytes:
-    """A PNG file of a (H, W, 3) uint8 picture."""
+    """PNG file of a (H, W, 3) uint8 image."""
     buffer = io.BytesIO()
     Image.fromarray(picture).save(buffer, "PNG", compress_level=compression)
     return buffer.getvalue()
@@ -228,10 +228,10 @@ def _background(studio: Studio) -> np.ndarray:
 
 
 def _numbered_node(pyrender: Any, number: int, light: Any, pose: np.ndarray) -> Any:
-    """A node with a light that keeps its place among others.
+    """A light node with a fixed position in the order of lights.
 
-    pyrender keeps lights in sets, whose order goes by where in memory they lie; in another order
-    their sum is rounded otherwise, and now and then a pixel comes out one level brighter.
+    pyrender keeps lights in sets, whose order depends on memory addresses; in another order their
+    sum is rounded differently, and a pixel may come out one level brighter.
     """
 
     class NumberedNode(pyrender.Node):
@@ -255,7 +255,7 @@ def _unit(vector: Sequence[float] | np.ndarray) -> np.ndarray:
 
 
 def _looking_along(direction: np.ndarray) -> np.ndarray:
-    """A 4x4 pose whose -z axis points along ``direction``."""
+    """Pose (4, 4) whose -z axis points along ``direction``."""
     z = -_unit(direction)
     x = _unit(np.cross((0.0, 1.0, 0.0), z) if abs(z[1]) < 0.99 else (1.0, 0.0, 0.0))
     pose = np.eye(4)

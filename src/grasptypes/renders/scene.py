@@ -1,4 +1,4 @@
-"""What the camera sees: the parts of an object, viewpoints around it, and the ground below it.
+"""What is rendered: the parts of an object, viewpoints around it, and the ground below it.
 
 Camera frames follow OpenGL: x right, y up, the camera looks along -z.
 """
@@ -24,7 +24,7 @@ _LUMINANCE = np.array([0.2126, 0.7152, 0.0722])
 
 @dataclass(frozen=True)
 class Part:
-    """All faces of an object that share one physically based material.
+    """All faces of an object that share a physically based material.
 
     Attributes:
         vertices: (V, 3) in metres, object frame.
@@ -44,9 +44,9 @@ class Part:
 
 
 def load_parts(path: str | Path) -> list[Part]:
-    """The parts of a GLB file, one a material, in the order the file holds them.
+    """The parts of a GLB file, one per material, in the order of the file.
 
-    Materials are taken as opaque: a transparent glass would show little but its background.
+    Materials are treated as opaque: transparent glass would show little but its background.
 
     Raises:
         InputError: the file is missing, is not a mesh, or has no faces.
@@ -93,7 +93,7 @@ def _part(material: tuple[float, ...], meshes: Sequence[trimesh.Trimesh]) -> Par
 def recolour(parts: Sequence[Part], amount: float, rng: np.random.Generator) -> list[Part]:
     """The parts with each colour moved towards a random one of the same luminance.
 
-    Brightness is kept, since it is by brightness that a picture can show its task.
+    Luminance is kept, because images encode the task in their brightness.
 
     Args:
         amount: 0 keeps the materials' colours, 1 replaces them.
@@ -103,7 +103,7 @@ def recolour(parts: Sequence[Part], amount: float, rng: np.random.Generator) -> 
         luminance = float(_LUMINANCE @ part.base_colour)
         colour = np.array(colorsys.hsv_to_rgb(*rng.uniform((0, 0.1, 1), (1, 0.9, 1))))
         colour *= luminance / (_LUMINANCE @ colour)
-        # Where a channel would exceed white, the colour is mixed with grey until it does not.
+        # A colour that would exceed white in a channel is mixed with grey until it does not.
         excess = colour.max() - luminance
         share = min(1.0, (1 - luminance) / excess) if excess > 0 else 0.0
         colours.append(luminance + share * (colour - luminance))
@@ -127,8 +127,8 @@ def viewpoints(
         vertices: (V, 3) points of the object in metres.
         field_of_view_rad: full angle of the square image.
         fill: share of the half image that the outermost vertex reaches.
-        min_distance_radii: the camera comes no closer to the centre of the bounding box than this
-            many radii of the object, so that a view along a handle is not distorted.
+        min_distance_radii: smallest distance of the camera from the centre of the bounding box, in
+            radii of the object, so that a view along a handle is not distorted.
 
     Returns:
         (count, 4, 4) T_object_camera.
@@ -168,18 +168,18 @@ def ground_light(
     strength: float,
     fading: float,
 ) -> np.ndarray:
-    """How much light the ground keeps in each pixel when the object rests on it.
+    """Share of light that reaches the ground in each pixel when the object rests on it.
 
-    The ground is a plane the camera looks down on at ``elevation_rad``; it touches the lowest of
-    the object's points. Each point throws its shadow along the light, fainter the higher it is.
+    The camera looks down at the ground plane at ``elevation_rad``; the plane touches the object's
+    lowest point. Each point casts its shadow along the light, fainter the higher it is.
 
     Args:
         points: (N, 3) surface points, object frame, metres.
         T_object_camera: (4, 4).
-        light_direction: (3,) the way the light travels, camera frame.
+        light_direction: (3,) direction in which the light travels, camera frame.
         softness_px: standard deviation of the shadow's blur.
-        strength: share of the light the deepest shadow takes away.
-        fading: a point as high as the highest throws exp(-fading) of a shadow.
+        strength: share of the light that the deepest shadow removes.
+        fading: the highest point casts exp(-fading) of a full shadow.
 
     Returns:
         (size_px, size_px) float32 in [1 - strength, 1].
@@ -194,12 +194,12 @@ def ground_light(
     column = cells / 2 + scale * shadow[:, 0] / -shadow[:, 2]
     row = cells / 2 - scale * shadow[:, 1] / -shadow[:, 2]
     weight = np.exp(-fading * height_m / height_m.max())
-    # A margin as wide as the raster keeps the shadow of what lies outside the picture.
+    # A margin as wide as the raster keeps shadows cast from outside the image.
     place = np.clip(np.floor([row, column]).astype(int) + cells, 0, 3 * cells - 1)
     counts = np.bincount(place[0] * 3 * cells + place[1], weight, (3 * cells) ** 2)
     raster = counts.reshape(3 * cells, 3 * cells).astype(np.float32)
-    raster[[0, -1]] = raster[:, [0, -1]] = 0  # where everything further away was put
-    # Only what the blur can carry into the picture is blurred: up to four deviations.
+    raster[[0, -1]] = raster[:, [0, -1]] = 0  # where everything farther away was clipped to
+    # Blur only what can reach the image: up to four standard deviations.
     blur_cells = softness_px / 4
     reach = min(int(np.ceil(4 * blur_cells)) + 1, cells)
     seen = slice(cells - reach, 2 * cells + reach)
