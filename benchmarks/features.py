@@ -44,7 +44,7 @@ def _plain(
     network: torchvision.models.MobileNetV2, pictures: np.ndarray, input_px: int, batch: int
 ) -> None:
     functional = torchvision.transforms.functional
-    for chunk in torch.from_numpy(pictures).permute(0, 3, 1, 2).split(batch):
+    for chunk in torch.split(torch.from_numpy(pictures).permute(0, 3, 1, 2), batch):
         x = functional.resize(chunk.to(torch.float32) / 255, [input_px, input_px])
         x = functional.normalize(x, [0.485, 0.456, 0.406], [0.229, 0.224, 0.225])
         network.features(x).mean(dim=(2, 3))

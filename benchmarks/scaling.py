@@ -27,6 +27,7 @@ import shutil
 import subprocess
 import sys
 from pathlib import Path
+from typing import Any
 
 import pandas as pd
 import pandera.pandas as pa
@@ -86,7 +87,7 @@ def snakemake(*arguments: str) -> tuple[float, float]:
     return usage.ru_utime + usage.ru_stime, usage.ru_maxrss / KIB_A_MIB
 
 
-def rule_rows() -> list[dict]:
+def rule_rows() -> list[dict[str, Any]]:
     """One row a rule: its jobs, and the memory of the largest."""
     benchmarks, jobs = FOLDER / "logs/benchmarks", []
     for path in sorted(benchmarks.rglob("*.tsv")):
@@ -98,7 +99,7 @@ def rule_rows() -> list[dict]:
     return [row for row in table.to_dict("records") if row["max_rss_mib"] > 0]
 
 
-def measure(objects: int, before_s: float, plan_only: bool) -> list[dict]:
+def measure(objects: int, before_s: float, plan_only: bool) -> list[dict[str, Any]]:
     """All rows of one size.
 
     Args:
@@ -119,7 +120,7 @@ def measure(objects: int, before_s: float, plan_only: bool) -> list[dict]:
     return [row | {"objects": objects} for row in rows]
 
 
-def with_growth(rows: list[dict]) -> pd.DataFrame:
+def with_growth(rows: list[dict[str, Any]]) -> pd.DataFrame:
     """The table, with the time an object relative to the smallest size that has the part."""
     table = pd.DataFrame(rows).sort_values("objects", kind="stable", ignore_index=True)
     each = table["core_s"] / table["objects"]

@@ -34,15 +34,15 @@ class _ByReachableCode:
         return own, _code_hash(self._py_file)
 
 
-class UserProvidedLocator(_ByReachableCode, UserProvidedCacheLocator):  # type: ignore[misc]
+class UserProvidedLocator(_ByReachableCode, UserProvidedCacheLocator):
     """In the folder that ``NUMBA_CACHE_DIR`` names."""
 
 
-class InTreeLocator(_ByReachableCode, InTreeCacheLocator):  # type: ignore[misc]
+class InTreeLocator(_ByReachableCode, InTreeCacheLocator):
     """In ``__pycache__`` beside the module."""
 
 
-class UserWideLocator(_ByReachableCode, UserWideCacheLocator):  # type: ignore[misc]
+class UserWideLocator(_ByReachableCode, UserWideCacheLocator):
     """In the user's cache folder, where the module's own cannot be written."""
 
 

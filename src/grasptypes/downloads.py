@@ -74,7 +74,7 @@ def _opened(url: str, timeout_s: float) -> IO[bytes]:
     return answer
 
 
-def _ask(url: str, timeout_s: float, answers: queue.SimpleQueue) -> None:
+def _ask(url: str, timeout_s: float, answers: queue.SimpleQueue[IO[bytes] | Exception]) -> None:
     try:
         answers.put(urllib.request.urlopen(url, timeout=timeout_s))
     except _FAILURES as error:

@@ -224,7 +224,7 @@ def _nearest_side(direction: Array) -> tuple[str, float]:
 def _relative(points: Array, body: Array) -> Array:
     """Mean place (3,) of points in the bounding box of a body, 0 to 1 along each axis."""
     low, high = body.min(axis=0), body.max(axis=0)
-    return np.clip((points.mean(axis=0) - low) / (high - low), 0.0, 1.0)
+    return np.asarray(np.clip((points.mean(axis=0) - low) / (high - low), 0.0, 1.0))
 
 
 def _touched_parts(ours: PartPoints, nearest: NDArray[np.int64]) -> str:

@@ -170,7 +170,7 @@ def _spread(place: Placement) -> list[Array]:
 
 def _around(place: Placement, angle_deg: float) -> Array:
     angle = np.radians(angle_deg)
-    return np.cos(angle) * place.closing + np.sin(angle) * place.axis
+    return np.asarray(np.cos(angle) * place.closing + np.sin(angle) * place.axis)
 
 
 def _exit(
@@ -231,9 +231,9 @@ def _trace(
 
 def _plateau(ratio: Array) -> Array:
     """1 well below a ratio of 1, 0.5 there, 0 well above: a patch with an edge, not a blur."""
-    return np.exp2(-(np.abs(ratio) ** 4))
+    return np.asarray(np.exp2(-(np.abs(ratio) ** 4)))
 
 
 def _facing(cosine: Array) -> Array:
     """0 for surfaces turned away from the skin, 1 from 60 degrees on."""
-    return np.clip(2.0 * cosine, 0.0, 1.0)
+    return np.asarray(np.clip(2.0 * cosine, 0.0, 1.0))

@@ -88,7 +88,7 @@ def read_grasp(path: str | Path) -> PosedHands:
 def _turned(angles: NDArray[np.float64], factor: float) -> NDArray[np.float64]:
     """Joint angles (8,) with the fingers' scaled by a factor, clipped to the limits."""
     turned = np.concatenate([angles[:2], angles[2:] * factor])
-    return np.clip(turned, *JOINT_LIMITS_RAD.T)
+    return np.asarray(np.clip(turned, *JOINT_LIMITS_RAD.T))
 
 
 def _read(path: str | Path) -> dict[str, Any]:

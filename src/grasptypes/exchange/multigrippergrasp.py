@@ -65,7 +65,7 @@ def read_grasps(path: str | Path) -> PosedHands:
 
 def _read(path: str | Path) -> dict[str, Any]:
     try:
-        content = json.loads(Path(path).read_text(encoding="utf-8"))
+        content: dict[str, Any] = json.loads(Path(path).read_text(encoding="utf-8"))
     except (OSError, ValueError) as error:
         raise InputError(path, "", f"is not a JSON file: {error}") from error
     missing = {"gripper", "object_id", "pose", "dofs"} - set(content)

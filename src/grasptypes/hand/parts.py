@@ -64,7 +64,7 @@ def circle(x: float, y: float, radius: float, segments: int) -> Array:
 def outline(*pieces: ArrayLike) -> Array:
     """The convex outline (n, 2), counter-clockwise, of several sets of points (m, 2)."""
     points = np.concatenate([np.atleast_2d(np.asarray(piece, dtype=float)) for piece in pieces])
-    return points[ConvexHull(points).vertices]
+    return np.asarray(points[ConvexHull(points).vertices])
 
 
 def prism(profile: Array, low: float, high: float, edge: float = EDGE_M) -> Array:

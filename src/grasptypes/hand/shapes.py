@@ -115,7 +115,7 @@ def depth_in_link(link: int, points: Array) -> Array:
         (n,) metres, positive inside; outside, the negative of a lower bound on the distance.
     """
     depths = [(offset - points @ normal.T).min(axis=1) for normal, offset in _half_spaces(link)]
-    return np.max(depths, axis=0)
+    return np.asarray(np.max(depths, axis=0))
 
 
 def depth_in_hand(points: Array, link_poses: Array) -> float:

@@ -4,7 +4,7 @@ from pathlib import Path
 from xml.etree import ElementTree as Xml
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 from scipy.spatial.transform import Rotation
 
 from grasptypes.files import write_text
@@ -14,6 +14,7 @@ from grasptypes.hand.shapes import link_meshes
 from grasptypes.hand.visuals import MATERIALS, link_visuals
 
 Array = NDArray[np.float64]
+Faces = NDArray[np.int64]
 
 URDF_NAME = "barrett_hand.urdf"
 
@@ -83,7 +84,7 @@ def write_hand(folder: str | Path) -> list[Path]:
     return [folder / URDF_NAME, *(folder / name for name in sorted(meshes))]
 
 
-def obj_text(vertices_m: Array, faces: NDArray[np.int64]) -> str:
+def obj_text(vertices_m: Array, faces: Faces) -> str:
     """A triangle mesh as OBJ, rounded to micrometres, in an order that only depends on shape."""
     rounded = np.round(vertices_m, 6) + 0.0
     unique, index = np.unique(rounded, axis=0, return_inverse=True)
@@ -97,7 +98,7 @@ def obj_text(vertices_m: Array, faces: NDArray[np.int64]) -> str:
     return "\n".join(lines + [f"f {a} {b} {c}" for a, b, c in triangles]) + "\n"
 
 
-def _add_link(robot: Element, index: int, link: str) -> dict[str, tuple[Array, Array]]:
+def _add_link(robot: Element, index: int, link: str) -> dict[str, tuple[Array, Faces]]:
     """Add a link's element; returns its meshes, vertices and faces, by file name."""
     element = _add(robot, "link", name=link)
     _add_inertial(element, index, link)
@@ -159,6 +160,6 @@ def _add(parent: Element, tag: str, **attributes: str) -> Element:
     return Xml.SubElement(parent, tag, attributes)
 
 
-def _numbers(values: object, digits: int = 6) -> str:
+def _numbers(values: ArrayLike, digits: int = 6) -> str:
     """Numbers in URDF notation, rounded to `digits` decimals."""
     return " ".join(f"{round(float(v), digits) + 0.0:.{digits}f}" for v in np.ravel(values))

@@ -104,5 +104,5 @@ def labels_of(samples: pd.DataFrame) -> np.ndarray:
     full = pd.MultiIndex.from_product([objects, tasks])
     if len(table) != len(full) or not table.index.isin(full).all():
         raise ValueError("every object needs a sample for every task")
-    labels = table.loc[full, list(LABELS)].to_numpy(dtype=bool)
+    labels: np.ndarray = table.loc[full, list(LABELS)].to_numpy(dtype=bool)
     return labels.reshape(len(objects), len(tasks), len(TYPES))

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from manifold3d import Manifold
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from grasptypes.objects import lofts, sections, solids
 from grasptypes.objects.parts import Material, ObjectModel, Part
@@ -106,7 +106,9 @@ def _knife_blade(size: Knife) -> Manifold:
     return blade - solids.extrude(waste, 0.02)
 
 
-def _blade_section(size: Knife, spine_m: float, edge_m: float, half_m: float) -> NDArray:
+def _blade_section(
+    size: Knife, spine_m: float, edge_m: float, half_m: float
+) -> NDArray[np.float64]:
     """Trace a wedge (8, 2) in x, z from the spine to a bevelled edge."""
     width_m = edge_m - spine_m
     back_m = spine_m + min(size.spine_bevel_m, 0.2 * width_m)
@@ -193,6 +195,7 @@ def _scissors_blade(size: Scissors) -> Manifold:
         (inner_m, size.pivot_y_m),
         (inner_m, size.pivot_y_m - 0.0115),
     ]
+    halves: tuple[list[ArrayLike], ...] = ([back, *tips], [lug])
     side, disc = (
         solids.hull(
             *(
@@ -200,7 +203,7 @@ def _scissors_blade(size: Scissors) -> Manifold:
                 for outline in outlines
             )
         )
-        for outlines in ([back, *tips], [lug])
+        for outlines in halves
     )
     return side + disc
 

@@ -99,7 +99,7 @@ class DistanceGrid:
         strides = np.array([self.values.shape[1] * self.values.shape[2], self.values.shape[2], 1])
         steps = np.indices((2, 2, 2)).reshape(3, -1).T @ strides
         flat = self.values.reshape(-1)[(cell @ strides)[..., None] + steps]
-        return flat.reshape(*cell.shape[:-1], 2, 2, 2).astype(np.float64)
+        return np.asarray(flat.reshape(*cell.shape[:-1], 2, 2, 2), dtype=np.float64)
 
 
 def signed_distance(points_m: ArrayLike, vertices: ArrayLike, faces: ArrayLike) -> Array:
@@ -113,12 +113,11 @@ def signed_distance(points_m: ArrayLike, vertices: ArrayLike, faces: ArrayLike) 
     corners = np.ascontiguousarray(vertices, dtype=np.float64)
     triangles = np.ascontiguousarray(faces, dtype=np.int64)
     if igl.is_edge_manifold(triangles) and len(igl.boundary_facets(triangles)[0]) == 0:
-        return igl.signed_distance(
-            points, corners, triangles, igl.SIGNED_DISTANCE_TYPE_PSEUDONORMAL
-        )[0]
+        kind = igl.SIGNED_DISTANCE_TYPE_PSEUDONORMAL
+        return np.asarray(igl.signed_distance(points, corners, triangles, kind)[0])
     apart = igl.signed_distance(points, corners, triangles, igl.SIGNED_DISTANCE_TYPE_UNSIGNED)[0]
     inside = np.abs(igl.fast_winding_number(corners, triangles, points)) > 0.5
-    return np.where(inside, -apart, apart)
+    return np.asarray(np.where(inside, -apart, apart))
 
 
 def _interpolate(corners: Array, fraction: Array) -> tuple[Array, Array]:

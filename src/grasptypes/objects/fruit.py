@@ -54,7 +54,7 @@ def apple(size: Apple = Apple()) -> ObjectModel:
         angle = np.arctan2(points[:, 1], points[:, 0])
         low = np.clip(0.5 - points[:, 2] / size.height_m, 0, 1)
         factor = 1 - size.lobe_depth * low * (0.5 - 0.5 * np.cos(size.lobes * angle))
-        return points * np.column_stack([factor, factor, np.ones_like(factor)])
+        return np.asarray(points * np.column_stack([factor, factor, np.ones_like(factor)]))
 
     dimple_m = curve[-1, 1]
     path = sections.smooth_curve(

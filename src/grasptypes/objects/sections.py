@@ -25,7 +25,7 @@ def smooth_curve(points: ArrayLike, samples: int = 48, closed: bool = False) -> 
         control = np.vstack([control, control[:1]])
     chord = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(control, axis=0), axis=1))])
     spline = CubicSpline(chord, control, bc_type="periodic" if closed else "natural")
-    return spline(np.linspace(0.0, chord[-1], samples, endpoint=not closed))
+    return np.asarray(spline(np.linspace(0.0, chord[-1], samples, endpoint=not closed)))
 
 
 def monotone_curve(stations: ArrayLike, values: ArrayLike, at: ArrayLike) -> Curve:
@@ -39,7 +39,8 @@ def monotone_curve(stations: ArrayLike, values: ArrayLike, at: ArrayLike) -> Cur
     Returns:
         (N,) or (N, D) values.
     """
-    return PchipInterpolator(np.asarray(stations), np.asarray(values), axis=0)(np.asarray(at))
+    curve = PchipInterpolator(np.asarray(stations), np.asarray(values), axis=0)
+    return np.asarray(curve(np.asarray(at)))
 
 
 def chain(*curves: ArrayLike) -> Curve:

@@ -126,8 +126,8 @@ def sweep(
 def stack(outlines: Sequence[ArrayLike], heights_m: ArrayLike, axis: str = "z") -> Manifold:
     """Loft (N, 2) outlines at increasing heights along an axis."""
     rings = [
-        np.column_stack([np.asarray(outline), np.full(len(outline), height)])
-        for outline, height in zip(outlines, np.asarray(heights_m), strict=True)
+        np.column_stack([outline, np.full(len(outline), height)])
+        for outline, height in zip(map(np.asarray, outlines), np.asarray(heights_m), strict=True)
     ]
     return along(loft(rings), axis)
 

@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 import numpy as np
+from manifold3d import Manifold
 
 from grasptypes.objects import sections, solids
 from grasptypes.objects.parts import Material, ObjectModel, Part
@@ -145,7 +146,7 @@ def mug(size: Mug = Mug()) -> ObjectModel:
     return ObjectModel(parts, density_kg_m3=1900.0)
 
 
-def _mug_handle(size: Mug) -> solids.Manifold:
+def _mug_handle(size: Mug) -> Manifold:
     """Sweep half an ellipse, thicker at its ends, and cut it off inside the wall."""
     turn = np.radians(np.linspace(-100, 100, 49))
     wall_m = size.axis_x_m + size.outer_radius_m

@@ -95,9 +95,9 @@ def _label(label_of: pd.DataFrame, name: str, tasks: Sequence[str]) -> np.ndarra
     if missing:
         raise InputError("samples", f"{name}, {missing[0]}", "has no label")
     rows = [label_of.loc[(name, task)].to_numpy(dtype=np.float32) for task in tasks]
-    return np.maximum.reduce(rows).reshape(len(TYPES))
+    return np.asarray(np.maximum.reduce(rows).reshape(len(TYPES)))
 
 
 def _one_hot(named: pd.Series, tasks: Sequence[str]) -> np.ndarray:
     position = {task: place for place, task in enumerate(tasks)}
-    return np.eye(len(tasks), dtype=np.float32)[named.map(position).to_numpy()]
+    return np.asarray(np.eye(len(tasks), dtype=np.float32)[named.map(position).to_numpy()])

@@ -79,7 +79,7 @@ def extract(
     features = {}
     for encoding, shift in shifts.items():
         tensor = torch.from_numpy(shift_colours(pictures, shift))
-        parts = [forward(backbone, chunk, precision) for chunk in tensor.split(batch)]
+        parts = [forward(backbone, chunk, precision) for chunk in torch.split(tensor, batch)]
         features[encoding] = torch.cat(parts).numpy()
     return features
 
@@ -93,4 +93,5 @@ def for_inference(backbone: Backbone) -> Backbone:
 def forward(backbone: Backbone, pictures: torch.Tensor, precision: str) -> torch.Tensor:
     """Features (B, F) float32 of a batch (B, H, W, 3) uint8, without gradients."""
     with torch.autocast("cpu", torch.bfloat16, enabled=precision == "bf16"):
-        return backbone(pictures).to(torch.float32)
+        features: torch.Tensor = backbone(pictures).to(torch.float32)
+    return features

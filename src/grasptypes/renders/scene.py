@@ -154,7 +154,7 @@ def surface_points(parts: Sequence[Part], count: int, rng: np.random.Generator) 
     chosen = rng.choice(len(triangles), count, p=areas / areas.sum())
     weights = np.sort(rng.random((count, 2)), axis=1)
     first, second = weights[:, :1], weights[:, 1:] - weights[:, :1]
-    return triangles[chosen, 0] + first * edges[chosen, 0] + second * edges[chosen, 1]
+    return np.asarray(triangles[chosen, 0] + first * edges[chosen, 0] + second * edges[chosen, 1])
 
 
 def ground_light(

@@ -9,7 +9,7 @@ import numpy as np
 import scipy.special
 from mlflow.exceptions import MlflowException
 from mlflow.protos.databricks_pb2 import INVALID_PARAMETER_VALUE
-from mlflow.pyfunc import PythonModel, PythonModelContext
+from mlflow.pyfunc.model import PythonModel, PythonModelContext
 
 from grasptypes.errors import InputError
 from grasptypes.predictors.predictor_files import load_predictor, read_card
