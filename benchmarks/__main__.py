@@ -14,6 +14,7 @@ from typing import Any
 
 from benchmarks.figures import FIGURE_SCHEMA, Figure, NotReady, header, line, table
 
+from grasptypes.settings.params import Params, read_params
 from grasptypes.tables import write_table
 from grasptypes.yaml_files import read_yaml
 
@@ -32,9 +33,7 @@ PARTS = {
 }
 
 
-def measured(
-    parts: list[str], settings: Mapping[str, Any], params: Mapping[str, Any]
-) -> Iterator[Figure]:
+def measured(parts: list[str], settings: Mapping[str, Any], params: Params) -> Iterator[Figure]:
     """Print and hand on what the parts measure; say of a part that cannot be measured why."""
     for part in parts:
         needed, maker = PARTS[part]
@@ -60,7 +59,7 @@ def main() -> None:
         parser.error(f"no such part: {', '.join(sorted(unknown))}")
     parts = [part for part in PARTS if part in asked or not asked]
     sys.stdout.write(header() + "\n")
-    settings, params = read_yaml(SETTINGS), read_yaml("params.yaml")
+    settings, params = read_yaml(SETTINGS), read_params("params.yaml")
     found = table(measured(parts, settings, params))
     if not asked:
         write_table(found, TABLE, FIGURE_SCHEMA)

@@ -16,19 +16,20 @@ from benchmarks.figures import Figure, rates, seconds
 from grasptypes.predictors.backbone import load_backbone
 from grasptypes.predictors.features import NO_TASK, extract, read_pictures
 from grasptypes.predictors.weights import Weights, find_weights
+from grasptypes.settings.params import Params
 
 
-def measure(settings: Mapping[str, Any], params: Mapping[str, Any]) -> Iterator[Figure]:
+def measure(settings: Mapping[str, Any], params: Params) -> Iterator[Figure]:
     """Both go from pictures of the workflow's size to pooled features."""
     torch.set_num_threads(1)
     weights = find_weights(timeout_s=0)
     pictures = read_pictures(sorted(Path("data/renders").glob("*.zip"))[0])[: settings["pictures"]]
-    how, input_px = params["features"], params["backbone"]["input_px"]
+    how, input_px = params.features, params.backbone.input_px
     backbone = load_backbone(weights, input_px)
-    ours = partial(extract, backbone, pictures, {NO_TASK: 0}, how["precision"], how["batch"])
-    plain = partial(_plain, _network(weights), pictures, input_px, how["batch"])
+    ours = partial(extract, backbone, pictures, {NO_TASK: 0}, how.precision, how.batch)
+    plain = partial(_plain, _network(weights), pictures, input_px, how.batch)
     taken_s = seconds(ours, plain, rounds=settings["rounds"], clock=time.process_time)
-    yield rates(f"features in {how['precision']}", "pictures/s", taken_s, len(pictures))
+    yield rates(f"features in {how.precision}", "pictures/s", taken_s, len(pictures))
 
 
 def _network(weights: Weights) -> torchvision.models.MobileNetV2:

@@ -10,13 +10,15 @@ from typing import Any
 import numpy as np
 from benchmarks.figures import Figure, NotReady, figure, seconds
 
+from grasptypes.settings.params import Params
+
 COMMANDS = {
     "Snakemake": (("snakemake", "-j2"), ("snakemake", "-n"), "Nothing to be done"),
     "DVC": (("dvc", "repro"), ("dvc", "status"), "up to date"),
 }
 
 
-def measure(settings: Mapping[str, Any], params: Mapping[str, Any]) -> Iterator[Figure]:
+def measure(settings: Mapping[str, Any], params: Params) -> Iterator[Figure]:
     """Only where there is nothing to be done: no benchmark starts an hour's work."""
     for tool, (command, question, answer) in COMMANDS.items():
         if answer not in _run(question):

@@ -13,10 +13,11 @@ from typing import Any
 import numpy as np
 from benchmarks.figures import Figure, NotReady, figure, seconds
 
+from grasptypes.settings.params import Params
 from grasptypes.versions.checkout import copy_checkout
 
 
-def measure(settings: Mapping[str, Any], params: Mapping[str, Any]) -> Iterator[Figure]:
+def measure(settings: Mapping[str, Any], params: Params) -> Iterator[Figure]:
     """A slice of the workflow from nothing: one job at a time, two, and twice at once.
 
     Two runs that know nothing of each other show what the machine's cores take from each other.

@@ -8,7 +8,6 @@ from __future__ import annotations
 import sys
 from collections.abc import Iterator, Mapping
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -20,35 +19,37 @@ from grasptypes.predictors.features import encodings, extract, read_pictures
 from grasptypes.predictors.folds import split
 from grasptypes.predictors.metrics import METRICS
 from grasptypes.predictors.predictor import VARIANTS
-from grasptypes.predictors.protocol import recipe_of, try_splits
+from grasptypes.predictors.protocol import try_splits
 from grasptypes.predictors.training import members_by_group
 from grasptypes.predictors.weights import find_weights
-from grasptypes.yaml_files import read_yaml
+from grasptypes.settings.params import Params, read_params
 
 RENDERS, LABELS = Path("data/renders"), Path("assets/published_labels.csv")
 PRECISIONS = ("fp32", "bf16")
 
 
 def measures(
-    precision: str, pictures: Mapping[str, np.ndarray], params: Mapping[str, Any]
+    precision: str, pictures: Mapping[str, np.ndarray], params: Params
 ) -> Iterator[tuple[str, pd.Series]]:
     """Each model's three measures with the published labels, mean over folds and seeds."""
-    backbone = load_backbone(find_weights(0), params["backbone"]["input_px"])
-    shifts, batch = encodings(params["tasks"]), params["features"]["batch"]
+    backbone = load_backbone(find_weights(0), params.backbone.input_px)
+    shifts, batch = encodings(params.colour_shifts), params.features.batch
     inputs = {n: extract(backbone, p, shifts, precision, batch) for n, p in pictures.items()}
     views = {name: len(shown) for name, shown in pictures.items()}
-    folds = split(views, params["folds"]["count"], params["seed"])
-    samples, recipe = samples_from_counts(pd.read_csv(LABELS)), recipe_of(params["predictors"])
+    folds = split(views, params.folds.count, params.seed)
+    samples = samples_from_counts(pd.read_csv(LABELS))
     for model, variant in VARIANTS.items():
-        examples = assemble(variant, inputs, samples, folds, list(params["tasks"]))
-        members = members_by_group(examples.index["fold"], params["predictors"]["seeds"])
-        outcome = try_splits(examples, members, recipe, ("predictor", model, params["seed"]))
+        examples = assemble(variant, inputs, samples, folds, list(params.tasks))
+        members = members_by_group(examples.index["fold"], params.predictors.seeds)
+        outcome = try_splits(
+            examples, members, params.predictors, ("predictor", model, params.seed)
+        )
         yield model, outcome.metrics[list(METRICS)].mean()
 
 
 def main() -> None:
     """Write the three measures of every model with both precisions, and the largest change."""
-    params = read_yaml("params.yaml")
+    params = read_params("params.yaml")
     pictures = {path.stem: read_pictures(path) for path in sorted(RENDERS.glob("*.zip"))}
     rows = {
         (model, precision): row

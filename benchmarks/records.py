@@ -12,6 +12,8 @@ from typing import Any, NamedTuple
 import pandas as pd
 from benchmarks.figures import Figure, figure
 
+from grasptypes.settings.params import Params
+
 MAIN_JOB = "reports/table1.csv"
 BEFORE_LABELS = {"prepare_object", "map_contacts", "synthesize_grasps"}
 
@@ -27,7 +29,7 @@ class Record(NamedTuple):
     ended_s: float
 
 
-def measure(settings: Mapping[str, Any], params: Mapping[str, Any]) -> Iterator[Figure]:
+def measure(settings: Mapping[str, Any], params: Params) -> Iterator[Figure]:
     """All rules beside the whole, the main job beside its aims, memory beside the machine's."""
     records = read_records(Path(".snakemake/metadata"))
     whole_s = busy_s(records.values())

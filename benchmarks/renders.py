@@ -6,7 +6,6 @@ Both with the one thread that a job has: a renderer that takes all cores is not 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import fields
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -14,17 +13,17 @@ from typing import Any
 import numpy as np
 from benchmarks.figures import Figure, rates, seconds
 
-from grasptypes.renders.renderer import Camera, Studio, Views
+from grasptypes.renders.renderer import Camera, Views
 from grasptypes.renders.scene import load_parts
 from grasptypes.runtime import pin_runtime
+from grasptypes.settings.params import Params
 
 
-def measure(settings: Mapping[str, Any], params: Mapping[str, Any]) -> Iterator[Figure]:
+def measure(settings: Mapping[str, Any], params: Params) -> Iterator[Figure]:
     """Ours end as PNG files with ground and shadow; the bare loop's are arrays."""
     pin_runtime()
-    studio = Studio(**{field.name: params["renders"][field.name] for field in fields(Studio)})
     taken_s = []
-    with Camera(studio) as camera:
+    with Camera(params.renders) as camera:
         for name in settings["objects"]:
             parts = load_parts(Path("data/objects") / name / "visual.glb")
             views = camera.views(parts, settings["views"], name, seed=0)

@@ -15,15 +15,23 @@ from benchmarks.figures import Figure, NotReady, figure, rates, seconds
 
 from grasptypes.contact_maps.contact_map_files import read_contact_map
 from grasptypes.hand import kinematics
+from grasptypes.objects.object_geometry import read_object
 from grasptypes.seeds import rng
-from grasptypes.synthesis.candidates import Hands, Person, draw_candidates
+from grasptypes.settings.params import Params
+from grasptypes.settings.synthesis import SynthesisSettings
+from grasptypes.synthesis.candidates import Demonstration, HandStates, draw_candidates
 from grasptypes.synthesis.energy import closeness, draw_targets, energies
 from grasptypes.synthesis.fields import distances
-from grasptypes.synthesis.holding import PhysicsSettings, read_body
+from grasptypes.synthesis.hand_model import sample_hand
 from grasptypes.synthesis.physics import Physics, physics
-from grasptypes.synthesis.search import SearchSettings, read_thing, search_session
-from grasptypes.synthesis.settings import sampled_hand, search_settings
-from grasptypes.synthesis.trials import Hand, Problem, ValiditySettings, people, synthesize
+from grasptypes.synthesis.scene import GraspScene, grasp_scene
+from grasptypes.synthesis.search import search_session
+from grasptypes.synthesis.trials import (
+    GraspTester,
+    SynthesisTask,
+    demonstrations,
+    synthesize_sessions,
+)
 
 URDF = Path("assets/barrett_hand/barrett_hand.urdf")
 
@@ -31,67 +39,64 @@ URDF = Path("assets/barrett_hand/barrett_hand.urdf")
 class Case(NamedTuple):
     """The sessions that are synthesized, and how."""
 
-    problem: Problem
-    hand: Hand
-    search: SearchSettings
-    validity: ValiditySettings
+    task: SynthesisTask
+    scene: GraspScene
+    """With the coarse hand."""
+    tester: GraspTester
+    settings: SynthesisSettings
 
 
-def measure(settings: Mapping[str, Any], params: Mapping[str, Any]) -> Iterator[Figure]:
+def measure(settings: Mapping[str, Any], params: Params) -> Iterator[Figure]:
     """Candidates, physics tests, and valid grasps with all that they take."""
-    folder, test = Path("data/objects") / settings["object"], params["physics"]["test"]
-    body = read_body(folder / "collision.obj", folder / "properties.json")
-    case = _load(settings, params, folder)
-    yield _candidates(case, settings["rounds"])
-    with physics(URDF, body, PhysicsSettings(**test)) as world:
+    task = _load(settings, params)
+    hand, surface_m = sample_hand(params.synthesis), task.contact_map.points.astype(np.float64)
+    scene = grasp_scene(hand.search, task.geometry, surface_m)
+    with physics(URDF, task.geometry, params.physics.test) as world:
+        check = scene._replace(hand=hand.check)
+        tester = GraspTester(check, world, params.physics.validity)
+        case = Case(task, scene, tester, params.synthesis)
+        yield _candidates(case, settings["rounds"])
         tests = _tests(case, world, settings["rounds"])
         yield tests
         begun = time.process_time()
-        grasps, _ = synthesize(case.problem, case.hand, world, case.search, case.validity)
+        grasps, _ = synthesize_sessions(*case)
         hours = (time.process_time() - begun) / 3600
     # The reference: every first grasp holds, and nothing has to be searched.
     valid = float(grasps.valid.sum()) / hours
     yield figure("valid grasps, beside tests alone", valid, "1/core-hour", tests.value * 3600)
 
 
-def _load(settings: Mapping[str, Any], params: Mapping[str, Any], folder: Path) -> Case:
+def _load(settings: Mapping[str, Any], params: Params) -> SynthesisTask:
     name, task = settings["object"], settings["task"]
     contact_map = read_contact_map(f"data/contact_maps/{name}/{task}.npz")
     some = replace(contact_map, sessions=contact_map.sessions[: settings["sessions"]])
-    thing = read_thing(folder / "distance_grid.npz", folder / "properties.json", contact_map)
-    return Case(
-        Problem(name, task, thing, some, params["seed"]),
-        sampled_hand(params["synthesis"]),
-        search_settings(params["synthesis"]),
-        ValiditySettings(**params["physics"]["validity"]),
-    )
+    return SynthesisTask(name, task, read_object(Path("data/objects") / name), some, params.seed)
 
 
 def _candidates(case: Case, rounds: int) -> Figure:
     """Hands placed, closed and given an energy, beside one look-up of distance a point of each."""
-    model, grid = case.hand.search, case.problem.thing.grid
-    persons = list(people(case.problem.contact_map))
-    hands = len(persons) * case.search.candidates.number
-    points = np.tile(model.points, (case.search.candidates.number, 1))
+    shown, number = list(demonstrations(case.task.contact_map)), case.settings.candidates.number
+    points = np.tile(case.scene.hand.points, (number, 1))
 
     def place() -> None:
-        for number, person in enumerate(persons):
-            _place(case, person, rng("benchmark", number))
+        for index, demonstration in enumerate(shown):
+            _place(case, demonstration, rng("benchmark", index))
 
     def look_up() -> None:
-        for _ in persons:
-            distances(grid, points)
+        for _ in shown:
+            distances(case.scene.field, points)
 
     taken_s = seconds(place, look_up, rounds=rounds, clock=time.process_time)
-    return rates("candidates, beside look-ups of their points", "1/s", taken_s, hands)
+    return rates("candidates, beside look-ups of their points", "1/s", taken_s, len(shown) * number)
 
 
-def _place(case: Case, person: Person, draw: np.random.Generator) -> None:
-    model, grid, search = case.hand.search, case.problem.thing.grid, case.search
-    targets = draw_targets(person.points_m, person.normals, person.contact, search.energy, draw)
-    hands = draw_candidates(model, grid, person, search.candidates, search.closing, draw)
+def _place(case: Case, demonstration: Demonstration, draw: np.random.Generator) -> None:
+    scene, settings = case.scene, case.settings
+    targets = draw_targets(demonstration, settings.energy, draw)
+    touch_m = settings.closing.touch_m
+    hands = draw_candidates(scene, demonstration, settings.candidates, touch_m, draw)
     poses = hands.T_object_hand[:, None] @ kinematics.link_poses(hands.joint_angles_rad)
-    energies(model, poses, closeness(model, grid, poses), targets, search.energy)
+    energies(scene.hand, poses, closeness(scene, poses), targets, settings.energy)
 
 
 def _tests(case: Case, world: Physics, rounds: int) -> Figure:
@@ -110,11 +115,11 @@ def _tests(case: Case, world: Physics, rounds: int) -> Figure:
     return rates("physics tests, beside their bare time steps", "1/s", taken_s, done=1)
 
 
-def _holding(case: Case, world: Physics) -> Hands:
+def _holding(case: Case, world: Physics) -> HandStates:
     """The best grasp of the first session whose best grasp holds."""
-    search, thing = partial(search_session, case.hand.search), case.problem.thing
-    for number, person in enumerate(people(case.problem.contact_map)):
-        hands = search(thing, person, case.search, rng("benchmark", number)).hands
+    for number, demonstration in enumerate(demonstrations(case.task.contact_map)):
+        draw = rng("benchmark", number)
+        hands = search_session(case.scene, demonstration, case.settings, draw).hands
         if not world.hold(hands.T_object_hand[0], hands.joint_angles_rad[0]).dropped:
             return hands
     raise NotReady("no session's best grasp holds")

@@ -14,9 +14,10 @@ from benchmarks.figures import Figure, seconds
 
 from grasptypes.predictors.problem import read_problem
 from grasptypes.predictors.training import fit, members_by_group
+from grasptypes.settings.params import Params
 
 
-def measure(settings: Mapping[str, Any], params: Mapping[str, Any]) -> Iterator[Figure]:
+def measure(settings: Mapping[str, Any], params: Params) -> Iterator[Figure]:
     """One thread, as in the workflow; one member stands for all that would be trained in turn."""
     torch.set_num_threads(1)
     name = settings["labels"], settings["model"]
@@ -27,9 +28,9 @@ def measure(settings: Mapping[str, Any], params: Mapping[str, Any]) -> Iterator[
         "folds": Path("data/folds.csv"),
         "backbone": Path("data/backbone.json"),
     }
-    problem = read_problem(files, name, params["tasks"], params["predictors"])
-    members = members_by_group(problem.examples.index["fold"], params["predictors"]["seeds"])
-    train = partial(fit, problem.examples, schedule=problem.recipe.schedule, key=("benchmark",))
+    problem = read_problem(files, name, params.colour_shifts, params.predictors)
+    members = members_by_group(problem.examples.index["fold"], params.predictors.seeds)
+    train = partial(fit, problem.examples, settings=problem.settings, key=("benchmark",))
     works = partial(train, members), partial(train, members[:1])
     clock, rounds = time.process_time, settings["rounds"]
     together_s, alone_s = seconds(*works, rounds=rounds, warm_up=False, clock=clock).T

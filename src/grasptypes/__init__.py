@@ -1,0 +1,60 @@
+"""Task-conditioned grasp types: which grasp should a robot hand use?
+
+    import grasptypes
+
+    mug = grasptypes.load_object("mug.stl", unit="mm")
+    answer = grasptypes.Predictor.load().predict(mug, task="use")
+    plan = grasptypes.Planner().plan(mug, "use", ["Power Sphere"])
+
+What stands here is imported when it is used, so that `import grasptypes` costs next to nothing.
+"""
+
+from importlib import import_module
+from importlib.metadata import version
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from grasptypes.errors import InputError
+    from grasptypes.labels.grasp import Grasp, label
+    from grasptypes.labels.grasp_type import GRASP_TYPES
+    from grasptypes.objects.loading import load_object
+    from grasptypes.objects.object_geometry import ObjectGeometry
+    from grasptypes.planning.planner import Plan, Planner
+    from grasptypes.predictors.prediction import Predictor
+
+__all__ = [
+    "GRASP_TYPES",
+    "Grasp",
+    "InputError",
+    "ObjectGeometry",
+    "Plan",
+    "Planner",
+    "Predictor",
+    "__version__",
+    "label",
+    "load_object",
+]
+
+_HOMES = {
+    "GRASP_TYPES": "labels.grasp_type",
+    "Grasp": "labels.grasp",
+    "InputError": "errors",
+    "ObjectGeometry": "objects.object_geometry",
+    "Plan": "planning.planner",
+    "Planner": "planning.planner",
+    "Predictor": "predictors.prediction",
+    "label": "labels.grasp",
+    "load_object": "objects.loading",
+}
+
+
+def __getattr__(name: str) -> Any:
+    if name == "__version__":
+        return version("grasptypes")
+    if name not in _HOMES:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    return getattr(import_module(f"{__name__}.{_HOMES[name]}"), name)
+
+
+def __dir__() -> list[str]:
+    return [*globals(), *__all__]

@@ -12,7 +12,7 @@ import hashlib
 import json
 import os
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -109,7 +109,7 @@ def _read(path: Path) -> tuple[str, list[str]]:
     """A digest of a file's statements, and names of this package that it may import."""
     tree = ast.parse(path.read_text(encoding="utf-8"))
     modules: set[str] = set()
-    for node in ast.walk(tree):  # the package uses absolute imports only
+    for node in _running(tree):  # the package uses absolute imports only
         if isinstance(node, ast.Import):
             modules |= {alias.name for alias in node.names}
         elif isinstance(node, ast.ImportFrom) and node.module:
@@ -119,6 +119,15 @@ def _read(path: Path) -> tuple[str, list[str]]:
             body[0].value.value = ""
     names = sorted({name for module in modules for name in _with_packages(module)})
     return hashlib.sha256(ast.dump(tree).encode()).hexdigest(), names
+
+
+def _running(tree: ast.AST) -> Iterator[ast.AST]:
+    """The nodes of a tree, without what is for type checkers only."""
+    yield tree
+    for child in ast.iter_child_nodes(tree):
+        test = getattr(child, "test", None)
+        if not (isinstance(child, ast.If) and getattr(test, "id", "") == "TYPE_CHECKING"):
+            yield from _running(child)
 
 
 def _is_docstring(node: ast.AST) -> bool:

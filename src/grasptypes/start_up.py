@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from pathlib import Path
 
-from grasptypes.contact_maps.affinities import Hold, read_affinities
+from grasptypes.contact_maps.affinities import AffinityRow, read_affinities
 from grasptypes.errors import InputError
 from grasptypes.labels.published_source import check_published
 from grasptypes.objects.own_objects import check_every_hold, check_own_objects
@@ -17,7 +17,7 @@ from grasptypes.versions.guard import check_cache_links
 
 def check_start(
     params: Params, root: str | Path, environment: Mapping[str, str]
-) -> dict[tuple[str, str], tuple[Hold, ...]]:
+) -> dict[tuple[str, str], tuple[AffinityRow, ...]]:
     """Check the files that the parameters name, and the user's settings.
 
     Args:

@@ -11,25 +11,34 @@ from grasptypes.labels.contacts import FINGER_LINKS, Contacts
 from grasptypes.labels.grasp_type import (
     GRASP_TYPES,
     Measures,
-    Thresholds,
     classify,
     explain,
     fingertip_span,
     sideways_share,
 )
 from grasptypes.labels.samples import COUNTS, LABELS, PROBABILITIES, samples_from_counts
+from grasptypes.settings.grasp_types import Thresholds
 
 LINKS = len(kinematics.LINK_NAMES)
+
+
+def thresholds_of(limits):
+    """Thresholds without their ranges: the rule's laws hold for any numbers."""
+    return Thresholds.model_construct(**dict(zip(Thresholds.model_fields, limits, strict=True)))
+
+
+def limits_of(thresholds):
+    return [getattr(thresholds, name) for name in Thresholds.model_fields]
 
 
 @st.composite
 def measured(draw, count=8):
     """Thresholds, and measures some of which lie exactly on them."""
-    thresholds = Thresholds(*draw(numbers(0.01, 0.2, 4)))
+    limits = draw(numbers(0.01, 0.2, 4))
     values = draw(numbers(-0.01, 0.3, (count, 4)))
     exact = draw(st.lists(st.booleans(), min_size=4 * count, max_size=4 * count))
-    values = np.where(np.reshape(exact, values.shape), thresholds, values)
-    return Measures(*values.T), thresholds
+    values = np.where(np.reshape(exact, values.shape), limits, values)
+    return Measures(*values.T), thresholds_of(limits)
 
 
 @st.composite
@@ -77,7 +86,7 @@ def test_the_unit_of_length_does_not_count(drawn, power):
     measures, thresholds = drawn
     factors = [2.0**power, 2.0**power, 1.0, 2.0**power]  # exact, and the share has no unit
     scaled = Measures(*(m * f for m, f in zip(measures, factors, strict=True)))
-    limits = Thresholds(*(t * f for t, f in zip(thresholds, factors, strict=True)))
+    limits = thresholds_of(np.multiply(limits_of(thresholds), factors))
     np.testing.assert_array_equal(classify(scaled, limits), classify(measures, thresholds))
 
 

@@ -16,8 +16,8 @@ from grasptypes.predictors.examples import Examples, assemble
 from grasptypes.predictors.features import NO_TASK
 from grasptypes.predictors.finetuning import FineTuning
 from grasptypes.predictors.folds import split
-from grasptypes.predictors.predictor import VARIANTS, Architecture, Heads
-from grasptypes.predictors.predictor_files import Card, write_predictor
+from grasptypes.predictors.predictor import VARIANTS, Architecture, BatchedMLP
+from grasptypes.predictors.predictor_files import ModelCard, write_predictor
 from grasptypes.predictors.protocol import Recipe
 from grasptypes.predictors.training import Schedule
 from grasptypes.predictors.weights import Weights, weights_file
@@ -25,7 +25,7 @@ from grasptypes.yaml_files import merge
 
 ROOT = Path(__file__).parents[2]
 SHIFTS = {"use": 10, "handoff": -10, "wash": 20}
-TASKS = {"use": {"colour_shift": 10}, "handoff": {"colour_shift": -10}, "show": {"colour_shift": 0}}
+TASKS = {"use": 10, "handoff": -10, "show": 0}
 OBJECTS = ("apple", "mug", "pan", "knife")
 VIEWS = 20
 SCHEDULE = Schedule(
@@ -91,11 +91,11 @@ def small_predictor(folder: Path, weights: Weights, model: str = "task_vector") 
     """Write tensors and card of a predictor of drawn numbers for three tasks; answers differ."""
     tasks = len(SHIFTS) if VARIANTS[model].task_vector else 0
     sizes = Architecture(KINDS["mobilenet_v2"].features, tasks, (8, 8, 8), 6)
-    card = Card(
+    card = ModelCard(
         model, "simulated", TYPES, tuple(SHIFTS), SHIFTS, sizes,
         weights.backbone, weights.name, 32, "none", "bf16",
     )  # fmt: skip
-    heads = Heads(sizes, [("a",)])
+    heads = BatchedMLP(sizes, [("a",)])
     with torch.no_grad():
         heads.weights[-1] *= 30
     files = folder / "predictor.safetensors", folder / "predictor.json"

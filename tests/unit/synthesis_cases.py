@@ -6,19 +6,19 @@ from pathlib import Path
 import numpy as np
 import trimesh
 from numpy.typing import ArrayLike
-from tests.unit.settings import RAW
+from tests.unit.settings import PARAMS
 
 from grasptypes.objects.distance_grid import DistanceGrid
-from grasptypes.objects.object_files import write_collision
-from grasptypes.synthesis.candidates import Person
-from grasptypes.synthesis.fields import Field, field
-from grasptypes.synthesis.hand_model import HandModel, hand_model
-from grasptypes.synthesis.holding import RigidObject
-from grasptypes.synthesis.search import Thing
+from grasptypes.objects.object_files import COLLISION, Properties, write_collision
+from grasptypes.objects.object_geometry import ObjectGeometry
+from grasptypes.synthesis.candidates import Demonstration
+from grasptypes.synthesis.fields import field
+from grasptypes.synthesis.hand_model import hand_model
+from grasptypes.synthesis.scene import GraspScene
 
 ROOT = Path(__file__).parents[2]
 URDF = ROOT / "assets" / "barrett_hand" / "barrett_hand.urdf"
-PARAMS = RAW
+TOUCH_M = PARAMS.synthesis.closing.touch_m
 RADIUS_M = 0.03
 
 
@@ -28,18 +28,12 @@ def ball() -> trimesh.Trimesh:
 
 
 @cache
-def ball_grid() -> Field:
-    mesh = ball()
-    return field(DistanceGrid.from_mesh(mesh.vertices, mesh.faces, 0.002, 0.02))
-
-
-@cache
-def model() -> HandModel:
-    return hand_model(0.006, 0.012, 0.004, 0.02)
-
-
-def ball_thing() -> Thing:
-    return Thing(ball_grid(), np.zeros(3), RADIUS_M, ball().vertices)
+def scene_of(size: str = "ball") -> GraspScene:
+    """The coarse hand and the ball, or a flat box."""
+    hand = hand_model(0.006, 0.012, 0.004, 0.02)
+    mesh = ball() if size == "ball" else trimesh.creation.box((0.2, 0.05, 0.05))
+    grid = DistanceGrid.from_mesh(mesh.vertices, mesh.faces, 0.002, 0.02)
+    return GraspScene(hand, field(grid), np.zeros(3), RADIUS_M, np.asarray(mesh.vertices))
 
 
 def palm_at(distance_m: float) -> np.ndarray:
@@ -49,10 +43,10 @@ def palm_at(distance_m: float) -> np.ndarray:
     return T[None]
 
 
-def ball_person(grip: str = "enclose") -> Person:
+def ball_shown(grip: str = "enclose") -> Demonstration:
     """Somebody who holds the ball from above by its upper half."""
     points, faces = trimesh.sample.sample_surface(ball(), 600, seed=1)
-    return Person(
+    return Demonstration(
         points_m=np.asarray(points),
         normals=ball().face_normals[faces],
         contact=(points[:, 2] > 0).astype(float),
@@ -63,9 +57,24 @@ def ball_person(grip: str = "enclose") -> Person:
     )
 
 
-def ball_body(folder: Path, mass_kg: float = 0.1, centre_m: ArrayLike = (0, 0, 0)) -> RigidObject:
+def ball_object(
+    folder: Path, mass_kg: float = 0.1, centre_m: ArrayLike = (0, 0, 0)
+) -> ObjectGeometry:
+    """A ball that physics can hold."""
     mesh = trimesh.creation.icosphere(subdivisions=2, radius=RADIUS_M)
     mesh.apply_translation(centre_m)
-    write_collision(folder / "collision.obj", [(mesh.vertices, mesh.faces.astype(np.int32))])
-    inertia = 0.4 * mass_kg * RADIUS_M**2 * np.eye(3)
-    return RigidObject(folder / "collision.obj", mass_kg, np.array(centre_m), inertia)
+    write_collision(folder / COLLISION, [(mesh.vertices, mesh.faces.astype(np.int32))])
+    properties = Properties(
+        object="ball",
+        scale=1.0,
+        mass_kg=mass_kg,
+        centre_of_mass_m=list(centre_m),
+        inertia_kg_m2=(0.4 * mass_kg * RADIUS_M**2 * np.eye(3)).tolist(),
+        density_kg_m3=1e3,
+        shell_thickness_m=None,
+        volume_m3=float(mesh.volume),
+        watertight=True,
+        bounds_m=mesh.bounds.tolist(),
+        repairs=[],
+    )
+    return ObjectGeometry(folder, properties)

@@ -58,13 +58,12 @@ def hand_hashes(folder):
 
 
 def object_settings(wildcards):
-    """What a catalogue object or an own one is made with; its contact maps are not."""
-    own = config["objects"]["own"].get(wildcards.object)
-    others = ["names", "variants", "variation", "variant_views", "comparison"]
-    if own is None:
-        return settings("objects", *others, "own", "import")
-    block = {key: value for key, value in own.items() if key != "contact_maps"}
-    return settings("objects", *others, "scale") | {"own": block}
+    """What a catalogue object or an own one is prepared with; its contact maps are not."""
+    objects = config["objects"]
+    own = dict(objects["own"].get(wildcards.object, {}))
+    own.pop("contact_maps", None)
+    how = {"own": own, "import": objects["import"]} if own else {"scale": objects["scale"]}
+    return {"resolution": objects["resolution"], **how}
 
 
 def variant_settings():
@@ -88,12 +87,10 @@ def varied_objects(labels):
     return [name for name in KNOWN[labels].objects if name in config["objects"]["names"]]
 
 
-def render_settings(wildcards):
-    """What pictures are taken with; variants have fewer of them."""
-    taken = settings("renders", "sheet")
-    if wildcards.object in VARIANTS:
-        taken["views"] = config["objects"]["variant_views"]
-    return taken
+def view_count(wildcards):
+    """How many images are taken of an object; variants have fewer of them."""
+    variant = wildcards.object in VARIANTS
+    return PARAMS.objects.variant_views if variant else PARAMS.renders.views
 
 
 def own_mesh(wildcards):
@@ -106,13 +103,9 @@ def measured_input(wildcards):
     return measured_map(PARAMS.objects, wildcards.object, wildcards.task) or []
 
 
-def contact_settings(wildcards):
-    """What a contact map is made with: the rows of the affinity table or the measured map."""
-    if measured_input(wildcards):
-        unit = config["objects"]["own"][wildcards.object]["unit"]
-        return settings("contact_maps", "affinities", "population", "tries") | {"unit": unit}
-    holds = HOLDS[base_of(wildcards.object), wildcards.task]
-    return settings("contact_maps", "measured") | {"holds": holds}
+def map_unit(name):
+    """The unit of the contact maps measured on an own object."""
+    return PARAMS.objects.own[name].unit if name in PARAMS.objects.own else "m"
 
 
 def measuring_hashes():
@@ -138,7 +131,7 @@ def learning_inputs(wildcards):
 
 def learning_tasks(wildcards):
     """The tasks that the label source knows, each with its colour shift."""
-    return {task: config["tasks"][task] for task in KNOWN[wildcards.labels].tasks}
+    return {task: PARAMS.colour_shifts[task] for task in KNOWN[wildcards.labels].tasks}
 
 
 def weights_choice(record="data/backbone.json"):

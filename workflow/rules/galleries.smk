@@ -12,7 +12,7 @@ rule picture_grasps:
     params:
         tasks=TASKS,
         renders=settings("renders", "views", "sheet"),
-        settings=settings("gallery", "size_px", "tile_px", "columns", "rejected", "sessions"),
+        settings=config["gallery"],
         code=script_hash("picture_grasps"),
     message:
         "Taking a picture of every grasp of {wildcards.object}"
@@ -35,7 +35,7 @@ rule plot_grasps:
         names=[(name, task) for name in OBJECTS for task in TASKS],
         objects=OBJECTS,
         renders=settings("renders", "views", "sheet"),
-        settings=settings("gallery", "screenshot_px", "rejected", "sessions"),
+        settings=config["gallery"],
         code=script_hash("plot_grasps"),
     message:
         "Drawing the gallery of grasps"
@@ -57,7 +57,7 @@ rule plot_rejected_grasps:
     params:
         objects=OBJECTS,
         renders=settings("renders", "views", "sheet"),
-        settings=settings("gallery", "screenshot_px", "columns", "sessions"),
+        settings=config["gallery"],
         code=script_hash("plot_rejected_grasps"),
     message:
         "Drawing examples of rejected grasps"
@@ -83,8 +83,8 @@ rule plot_sessions:
     params:
         objects=OBJECTS,
         tasks=TASKS,
-        settings=config["gallery"]["sessions"]
-        | {"png_compression": config["renders"]["png_compression"]},
+        settings=config["gallery"]["sessions"],
+        png_compression=config["renders"]["png_compression"],
         code=script_hash("plot_sessions"),
     message:
         "Laying out all grasps of every object"

@@ -14,7 +14,7 @@ rule picture_variants:
             "objects": variant_settings(),
             "renders": settings("renders", "views", "sheet"),
             "features": settings("features"),
-            "tasks": config["tasks"],
+            "tasks": PARAMS.colour_shifts,
             "views": variant_views(),
         },
         seed=config["seed"],

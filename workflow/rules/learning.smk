@@ -49,7 +49,7 @@ rule extract_features:
         features="data/features/{object}.npz",
     params:
         settings=settings("features"),
-        tasks=config["tasks"],
+        tasks=PARAMS.colour_shifts,
         code=script_hash("extract_features"),
     message:
         "Extracting features of {wildcards.object}"

@@ -50,7 +50,9 @@ rule map_contacts:
     output:
         contact_map="data/contact_maps/{object}/{task}.npz",
     params:
-        settings=contact_settings,
+        settings=settings("contact_maps"),
+        rows=lambda wildcards: HOLDS.get((base_of(wildcards.object), wildcards.task), ()),
+        unit=lambda wildcards: map_unit(wildcards.object),
         measured=lambda wildcards: hashes(measured_input(wildcards)),
         seed=config["seed"],
         code=script_hash("map_contacts"),

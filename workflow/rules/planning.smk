@@ -24,19 +24,7 @@ rule compare_plans:
         markdown="reports/planning.md",
     threads: 2
     params:
-        params={
-            key: config[key]
-            for key in (
-                "seed",
-                "contact_maps",
-                "synthesis",
-                "physics",
-                "grasp_types",
-                "predictors",
-                "predict",
-                "plan",
-            )
-        },
+        params=dict(config),
         tasks=lambda wildcards: learning_tasks(ASKED),
         hand=hand_hashes("assets/barrett_hand"),
         code=script_hash("compare_plans"),

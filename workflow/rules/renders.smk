@@ -8,7 +8,8 @@ rule render_object:
         pictures="data/renders/{object}.zip",
         poses="data/renders/{object}.csv",
     params:
-        settings=render_settings,
+        views=view_count,
+        settings=settings("renders", "views", "sheet"),
         seed=config["seed"],
         code=script_hash("render_object"),
     message:

@@ -7,6 +7,7 @@ from typing import Any
 from grasptypes.files import write_text
 from grasptypes.jobs import job
 from grasptypes.labels.samples import LABELS, read_samples
+from grasptypes.objects.object_geometry import read_object
 from grasptypes.objects.variants import base_of
 from grasptypes.planning.plan_comparison import (
     CHOICES,
@@ -17,32 +18,31 @@ from grasptypes.planning.plan_comparison import (
     compare,
     text,
 )
-from grasptypes.planning.planner import Workshop
+from grasptypes.planning.planner import PlanningContext
 from grasptypes.planning.unseen_types import unseen_types
 from grasptypes.predictors.prediction import spelled
 from grasptypes.predictors.problem import read_problem
+from grasptypes.settings.params import Params
 from grasptypes.tables import write_table
 
 
 def cases(
     inputs: Mapping[str, Any],
     folders: Mapping[str, Path],
-    tasks: Mapping[str, Mapping[str, int]],
-    params: Mapping[str, Any],
+    tasks: Mapping[str, int],
+    params: Params,
 ) -> Sequence[Case]:
     """All plans to be made.
 
     Args:
         inputs: those of `read_problem`, and the hand's URDF.
         folders: of the prepared objects, by name.
-        tasks: the section of params.yaml, those that the labels know.
-        params: the other sections.
+        tasks: those that the labels know, each with its colour shift.
+        params: all parameters.
     """
-    settings = params["plan"]["comparison"]
-    model = params["predict"]["labels"], params["predict"]["model"]
-    problem = read_problem(inputs, model, tasks, params["predictors"])
-    predicted = unseen_types(problem, settings["seeds"], params["seed"])
-    contact_params = {**params["contact_maps"], "sessions": settings["sessions"]}
+    model = params.predict.labels, params.predict.model
+    problem = read_problem(inputs, model, tasks, params.predictors)
+    predicted = unseen_types(problem, params.plan.comparison.seeds, params.seed)
     found = []
     for row in read_samples(inputs["samples"]).itertuples():
         name = str(row.object), str(row.task)
@@ -51,8 +51,9 @@ def cases(
         kinds = [spelled(label.removeprefix("label_")) for label in LABELS if getattr(row, label)]
         chosen = predicted.get(name) or predicted[name[0], ""]  # "" where the model sees no task
         types = {PREDICTED: chosen, LABELLED: kinds}
-        shop = Workshop(folders[name[0]], Path(inputs["hand"]), name, params["seed"], params)
-        found += [Case(shop, choice, types, contact_params) for choice in CHOICES]
+        geometry = read_object(folders[name[0]])
+        context = PlanningContext(geometry, name[1], name[0], Path(inputs["hand"]), params)
+        found += [Case(context, choice, types) for choice in CHOICES]
     return found
 
 
@@ -62,7 +63,7 @@ if __name__ == "__main__":
             dict(snakemake.input.items()),
             {Path(file).parent.name: Path(file).parent for file in snakemake.input.objects},
             snakemake.params.tasks,
-            snakemake.params.params,
+            Params.check(snakemake.params.params),
         )
         table = compare(plans, snakemake.threads, log.info)
         write_table(table, snakemake.output.table, PLANNING_SCHEMA)

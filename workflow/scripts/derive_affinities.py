@@ -2,7 +2,6 @@
 
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
 
 import pandas as pd
 
@@ -18,6 +17,7 @@ from grasptypes.errors import InputError
 from grasptypes.jobs import job
 from grasptypes.labels.published import read_published
 from grasptypes.objects.object_files import read_surface
+from grasptypes.settings.contact_maps import ContactEvidenceSettings
 from grasptypes.tables import write_table
 
 
@@ -27,7 +27,7 @@ def derive_affinities(
     surfaces: Mapping[str, str],
     targets: tuple[str | Path, str | Path, str | Path],
     scale: float,
-    params: Mapping[str, Any],
+    settings: ContactEvidenceSettings,
 ) -> None:
     """Write one row a published grasp, their summary by hold, and the shares of grips by class."""
     grasps = read_published(published)
@@ -36,7 +36,7 @@ def derive_affinities(
     for name, group in known.groupby("object", sort=True):
         if name in surfaces:
             scan = Path(meshes) / f"{name}.stl"
-            rows += object_evidence(group, read_surface(surfaces[name]), scan, scale, params)
+            rows += object_evidence(group, read_surface(surfaces[name]), scan, scale, settings)
     evidence = pd.DataFrame(rows)
     write_table(evidence, targets[0], EVIDENCE_SCHEMA)
     write_table(summarise(evidence), targets[1], SUMMARY_SCHEMA)
@@ -58,5 +58,5 @@ if __name__ == "__main__":
                 snakemake.output.pattern,
             ),
             snakemake.params.scale,
-            snakemake.params.settings,
+            ContactEvidenceSettings.check(snakemake.params.settings),
         )

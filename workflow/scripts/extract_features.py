@@ -2,7 +2,6 @@
 
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
 
 import torch
 
@@ -11,21 +10,22 @@ from grasptypes.jobs import job
 from grasptypes.predictors.backbone import load_backbone
 from grasptypes.predictors.features import encodings, extract, read_pictures
 from grasptypes.predictors.learning_inputs import read_backbone_record, recorded_weights
+from grasptypes.settings.predictors import FeatureSettings
 
 
 def extract_features(
     pictures: str | Path,
     record: str | Path,
     target: str | Path,
-    tasks: Mapping[str, Mapping[str, int]],
-    settings: Mapping[str, Any],
+    tasks: Mapping[str, int],
+    settings: FeatureSettings,
 ) -> None:
     """Write one array an encoding, (views, F) float32, to `target`."""
     known = read_backbone_record(record)
     backbone = load_backbone(recorded_weights(known), known.input_px)
     shifts = encodings(tasks)
     features = extract(
-        backbone, read_pictures(pictures), shifts, settings["precision"], settings["batch"]
+        backbone, read_pictures(pictures), shifts, settings.precision, settings.batch
     )
     write_npz(target, features)
 
@@ -38,5 +38,5 @@ if __name__ == "__main__":
             snakemake.input.backbone,
             snakemake.output.features,
             snakemake.params.tasks,
-            snakemake.params.settings,
+            FeatureSettings.check(snakemake.params.settings),
         )

@@ -2,33 +2,31 @@
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any
 
 import pandas as pd
 
 from grasptypes.jobs import job
-from grasptypes.labels.contacts import ContactSettings
 from grasptypes.labels.dataset import DATASET_SCHEMA, dataset_table, label_grasps, sample_table
-from grasptypes.labels.grasp_type import Thresholds
 from grasptypes.labels.samples import SAMPLE_SCHEMA
 from grasptypes.objects.distance_grid import DistanceGrid
+from grasptypes.settings.grasp_types import ContactSettings, Thresholds
 from grasptypes.synthesis.grasps import GRASP_SCHEMA
 from grasptypes.tables import read_table, write_table
 
 
 def label_all(
-    tables: Sequence[str], grids: Mapping[str, str], settings: Mapping[str, Any]
+    tables: Sequence[str],
+    grids: Mapping[str, str],
+    contacts: ContactSettings,
+    thresholds: Thresholds,
 ) -> pd.DataFrame:
     """The dataset of all grasp tables.
 
     Args:
         tables: of `grasps.GRASP_SCHEMA`.
         grids: an object's distance grid by its name.
-        settings: the `grasp_types` section of params.yaml.
     """
     grasps = pd.concat([read_table(path, GRASP_SCHEMA) for path in tables], ignore_index=True)
-    contacts = ContactSettings(**settings["contacts"])
-    thresholds = Thresholds(**settings["thresholds"])
     return dataset_table(
         [
             label_grasps(rows, DistanceGrid.load(grids[str(name)]), contacts, thresholds)
@@ -40,7 +38,12 @@ def label_all(
 if __name__ == "__main__":
     with job(snakemake.log) as log:
         grids = {Path(path).parent.name: path for path in snakemake.input.grids}
-        dataset = label_all(snakemake.input.grasps, grids, snakemake.params.settings)
+        dataset = label_all(
+            snakemake.input.grasps,
+            grids,
+            ContactSettings.check(snakemake.params.settings["contacts"]),
+            Thresholds.check(snakemake.params.settings["thresholds"]),
+        )
         write_table(dataset, snakemake.output.grasps, DATASET_SCHEMA)
         samples = sample_table(dataset, snakemake.output.grasps)
         write_table(samples, snakemake.output.samples, SAMPLE_SCHEMA)

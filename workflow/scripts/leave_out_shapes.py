@@ -10,11 +10,11 @@ import torch
 from grasptypes.files import read_npz
 from grasptypes.jobs import job
 from grasptypes.labels.samples import read_samples
-from grasptypes.predictors.generalisation import TRIAL_SCHEMA, Inputs, Known, Trial, try_trial
+from grasptypes.predictors.generalisation import TRIAL_SCHEMA, Inputs, VariantInputs, try_trial
 from grasptypes.predictors.learning_inputs import read_backbone_record, read_inputs
 from grasptypes.predictors.predictor_files import FROZEN
-from grasptypes.predictors.protocol import recipe_of
 from grasptypes.predictors.scoring import with_source
+from grasptypes.settings.predictors import PredictorSettings, VariantTrial
 from grasptypes.tables import write_table
 
 
@@ -37,16 +37,16 @@ def leave_out_shapes(
 ) -> None:
     """Write the metrics of the model `name` (labels, model), one row a trial, object and seed."""
     record = read_backbone_record(inputs["backbone"])
-    known = Known(
+    known = VariantInputs(
         read_inputs(inputs["objects"], settings["tasks"]),
         read_variants(inputs["variants"]),
         read_samples(inputs["samples"]),
         list(settings["tasks"]),
     )
-    recipe = recipe_of(settings["predictors"] | {"finetune": FROZEN})
-    tables = []
-    for trial in (Trial(**entry) for entry in settings["trials"]):
-        metrics = try_trial(known, name[1], trial, recipe, settings["seeds"], seed)
+    training = PredictorSettings.check(settings["predictors"] | {"finetune": FROZEN})
+    draws, tables = (settings["seeds"], seed), []
+    for trial in map(VariantTrial.check, settings["trials"]):
+        metrics = try_trial(known, name[1], trial, training, draws)
         table = with_source(metrics, name, record, FROZEN)
         tables.append(table.assign(shapes=trial.shapes, views=trial.views))
     write_table(pd.concat(tables, ignore_index=True), target, TRIAL_SCHEMA)

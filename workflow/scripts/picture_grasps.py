@@ -2,14 +2,14 @@
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any
 
 from grasptypes.files import write_bytes, zip_bytes
 from grasptypes.jobs import job
-from grasptypes.renders.contact_pictures import studio_of
+from grasptypes.renders.contact_pictures import plain
 from grasptypes.renders.gallery import grasp_picture, pose_of
 from grasptypes.renders.renderer import Camera, png_bytes
 from grasptypes.renders.scene import load_parts
+from grasptypes.settings.renders import CameraSettings, GallerySettings
 from grasptypes.synthesis.grasps import GRASP_SCHEMA
 from grasptypes.tables import read_table
 
@@ -19,23 +19,23 @@ def picture_grasps(
     tables: Mapping[str, str | Path],
     visual: str | Path,
     target: str | Path,
-    renders: Mapping[str, Any],
-    params: Mapping[str, Any],
+    renders: CameraSettings,
+    settings: GallerySettings,
 ) -> None:
     """Write `<object>_<session>_<task>.png` of each grasp, valid or not, to one archive.
 
     Args:
         tables: the grasps of the object `name`, by task.
     """
-    studio = studio_of(renders, params["screenshot_px"])
+    plainly = plain(renders, settings.screenshot_px)
     parts = load_parts(visual)
     members = {}
-    with Camera(studio) as camera:
+    with Camera(plainly) as camera:
         for task, path in tables.items():
             for row in read_table(path, GRASP_SCHEMA).itertuples():
-                picture = grasp_picture(parts, *pose_of(row), camera, params["elevation_rad"])
+                picture = grasp_picture(parts, *pose_of(row), camera, settings.elevation_rad)
                 file_name = f"{name}_{row.session}_{task}.png"
-                members[file_name] = png_bytes(picture, studio.png_compression)
+                members[file_name] = png_bytes(picture, plainly.png_compression)
     write_bytes(target, zip_bytes(members))
 
 
@@ -47,6 +47,6 @@ if __name__ == "__main__":
             dict(zip(tasks, snakemake.input.grasps, strict=True)),
             snakemake.input.visual,
             snakemake.output.pictures,
-            snakemake.params.renders,
-            snakemake.params.settings,
+            CameraSettings.check(snakemake.params.renders),
+            GallerySettings.check(snakemake.params.settings),
         )

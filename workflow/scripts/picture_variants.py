@@ -2,7 +2,6 @@
 
 import tempfile
 from collections.abc import Mapping
-from dataclasses import fields
 from pathlib import Path
 from typing import Any
 
@@ -17,13 +16,15 @@ from grasptypes.objects.variation import build_variant
 from grasptypes.predictors.backbone import load_backbone
 from grasptypes.predictors.features import encodings, extract
 from grasptypes.predictors.learning_inputs import read_backbone_record, recorded_weights
-from grasptypes.renders.renderer import Camera, Studio
+from grasptypes.renders.renderer import Camera
 from grasptypes.renders.scene import Part, load_parts
+from grasptypes.settings.objects import VariationRanges
+from grasptypes.settings.renders import CameraSettings
 
 
 def variant_parts(name: str, objects: Mapping[str, Any], seed: int) -> list[Part]:
     """What the camera sees of a variant; `objects` is the section of params.yaml."""
-    model = build_variant(name, objects["variation"], seed)
+    model = build_variant(name, VariationRanges.check(objects["variation"]), seed)
     content = visual_glb(scaled_parts(model, objects["scale"]), objects["resolution"]["crease_deg"])
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "visual.glb"
@@ -38,9 +39,8 @@ def picture_variants(
     known = read_backbone_record(record)
     backbone = load_backbone(recorded_weights(known), known.input_px)
     shifts, chosen = encodings(settings["tasks"]), settings["features"]
-    studio = Studio(**{field.name: settings["renders"][field.name] for field in fields(Studio)})
     features = {}
-    with Camera(studio) as camera:
+    with Camera(CameraSettings.check(settings["renders"])) as camera:
         names = variant_names(name, len(settings["views"]))
         for variant, count in zip(names, settings["views"], strict=True):
             parts = variant_parts(variant, settings["objects"], seed)

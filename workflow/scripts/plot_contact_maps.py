@@ -2,15 +2,15 @@
 
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
 
 from grasptypes.contact_maps.contact_map_files import read_contact_map
 from grasptypes.files import write_bytes
 from grasptypes.jobs import job
 from grasptypes.objects.object_files import read_surface
-from grasptypes.renders.contact_pictures import contact_picture, studio_of
+from grasptypes.renders.contact_pictures import contact_picture, plain
 from grasptypes.renders.renderer import Camera, png_bytes
 from grasptypes.reports.sheets import Group, Tile, sheet
+from grasptypes.settings.renders import CameraSettings, ContactPictureSettings
 
 
 def plot_contact_maps(
@@ -18,21 +18,20 @@ def plot_contact_maps(
     surfaces: Mapping[str, str],
     targets: Mapping[tuple[str, str], str],
     whole: str | Path,
-    renders: Mapping[str, Any],
-    params: Mapping[str, Any],
+    renders: CameraSettings,
+    settings: ContactPictureSettings,
 ) -> None:
     """Draw each map of (object, task) to its target, and all of them small to `whole`."""
     tiles = []
-    studio = studio_of(renders, params["size_px"])
-    with Camera(studio) as camera:
+    plainly = plain(renders, settings.size_px)
+    with Camera(plainly) as camera:
         for (name, task), path in maps.items():
             surface, contact = read_surface(surfaces[name]), read_contact_map(path)
-            mesh = surface.vertices, surface.faces
-            picture = contact_picture(contact, contact.probability, *mesh, camera, params)
-            write_bytes(targets[name, task], png_bytes(picture, studio.png_compression))
+            picture = contact_picture(contact, contact.probability, surface, camera, settings)
+            write_bytes(targets[name, task], png_bytes(picture, plainly.png_compression))
             tiles.append(Tile(picture, f"{name}, {task}"))
-    picture = sheet([Group("", tiles)], params["columns"], params["tile_px"])
-    write_bytes(whole, png_bytes(picture, studio.png_compression))
+    picture = sheet([Group("", tiles)], settings.columns, settings.tile_px)
+    write_bytes(whole, png_bytes(picture, plainly.png_compression))
 
 
 if __name__ == "__main__":
@@ -43,6 +42,6 @@ if __name__ == "__main__":
             dict(zip(snakemake.params.objects, snakemake.input.surfaces, strict=True)),
             dict(zip(names, snakemake.output.pictures, strict=True)),
             snakemake.output.sheet,
-            snakemake.params.renders,
-            snakemake.params.settings,
+            CameraSettings.check(snakemake.params.renders),
+            ContactPictureSettings.check(snakemake.params.settings),
         )

@@ -2,19 +2,18 @@
 
 from collections.abc import Mapping
 from pathlib import PurePath
-from typing import Any
 
 from grasptypes.jobs import job
 from grasptypes.labels.dataset import DATASET_SCHEMA, VALID
-from grasptypes.labels.grasp_type import Thresholds
 from grasptypes.labels.label_pictures import save_figure
 from grasptypes.labels.label_tree import draw_label_tree, typical_grasps
 from grasptypes.reports.session_pictures import read_named_pictures
+from grasptypes.settings.grasp_types import Thresholds
 from grasptypes.tables import read_table
 
 
 def plot_label_tree(
-    dataset: str, archives: Mapping[str, str], target: str, thresholds: Mapping[str, Any]
+    dataset: str, archives: Mapping[str, str], target: str, thresholds: Thresholds
 ) -> None:
     """Write the figure.
 
@@ -29,7 +28,7 @@ def plot_label_tree(
         for name, row in typical_grasps(table).items()
     }
     rejected = int((table.reason != VALID).sum())
-    save_figure(draw_label_tree(counts, rejected, Thresholds(**thresholds), pictures), target)
+    save_figure(draw_label_tree(counts, rejected, thresholds, pictures), target)
 
 
 if __name__ == "__main__":
@@ -38,5 +37,5 @@ if __name__ == "__main__":
             snakemake.input.dataset,
             dict(zip(snakemake.params.objects, snakemake.input.pictures, strict=True)),
             snakemake.output.figure,
-            snakemake.params.thresholds,
+            Thresholds.check(snakemake.params.thresholds),
         )

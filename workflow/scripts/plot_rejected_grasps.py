@@ -2,18 +2,18 @@
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any
 
 import pandas as pd
 
 from grasptypes.files import write_bytes
 from grasptypes.jobs import job
-from grasptypes.renders.contact_pictures import studio_of
+from grasptypes.renders.contact_pictures import plain
 from grasptypes.renders.gallery import grasp_picture, pose_of
 from grasptypes.renders.renderer import Camera, png_bytes
 from grasptypes.renders.scene import load_parts
 from grasptypes.reports.rejections import caption, examples, heading
 from grasptypes.reports.sheets import Group, Tile, sheet
+from grasptypes.settings.renders import CameraSettings, GallerySettings
 from grasptypes.synthesis.grasps import ATTEMPT_SCHEMA
 from grasptypes.tables import read_table
 
@@ -22,30 +22,30 @@ def plot_rejected_grasps(
     tables: Sequence[str | Path],
     visuals: Mapping[str, str | Path],
     target: str | Path,
-    renders: Mapping[str, Any],
-    params: Mapping[str, Any],
+    renders: CameraSettings,
+    settings: GallerySettings,
 ) -> None:
     """Draw some of the attempts in `tables` that were rejected for each reason."""
     attempts = pd.concat([read_table(path, ATTEMPT_SCHEMA) for path in tables], ignore_index=True)
-    studio = studio_of(renders, params["size_px"])
+    plainly = plain(renders, settings.size_px)
     groups = [] if not attempts.valid.all() else [Group("no attempt was rejected", [])]
-    with Camera(studio) as camera:
-        for reason, rows in examples(attempts, params["rejected"]).groupby("reason", sort=False):
+    with Camera(plainly) as camera:
+        for reason, rows in examples(attempts, settings.rejected).groupby("reason", sort=False):
             tiles = [
                 Tile(
                     grasp_picture(
                         load_parts(visuals[row.object]),
                         *pose_of(row),
                         camera,
-                        params["elevation_rad"],
+                        settings.elevation_rad,
                     ),
                     caption(row),
                 )
                 for row in rows.itertuples()
             ]
             groups.append(Group(heading(attempts, str(reason)), tiles))
-    whole = sheet(groups, params["rejected"], params["tile_px"])
-    write_bytes(target, png_bytes(whole, studio.png_compression))
+    whole = sheet(groups, settings.rejected, settings.tile_px)
+    write_bytes(target, png_bytes(whole, plainly.png_compression))
 
 
 if __name__ == "__main__":
@@ -54,6 +54,6 @@ if __name__ == "__main__":
             snakemake.input.attempts,
             dict(zip(snakemake.params.objects, snakemake.input.visuals, strict=True)),
             snakemake.output.sheet,
-            snakemake.params.renders,
-            snakemake.params.settings,
+            CameraSettings.check(snakemake.params.renders),
+            GallerySettings.check(snakemake.params.settings),
         )

@@ -1,7 +1,6 @@
 """Show some renders of every object on one sheet."""
 
 from collections.abc import Mapping
-from typing import Any
 
 import numpy as np
 
@@ -10,17 +9,18 @@ from grasptypes.jobs import job
 from grasptypes.predictors.features import read_pictures
 from grasptypes.renders.renderer import png_bytes
 from grasptypes.reports.sheets import Group, Tile, sheet
+from grasptypes.settings.renders import RenderSheet
 
 
 def plot_renders(
-    archives: Mapping[str, str], target: str, params: Mapping[str, Any], compression: int
+    archives: Mapping[str, str], target: str, settings: RenderSheet, compression: int
 ) -> None:
     """Write a sheet of the first pictures of each object's archive."""
     tiles = [
-        Tile(np.hstack(list(read_pictures(path)[: params["views"]])), name)
+        Tile(np.hstack(list(read_pictures(path)[: settings.views])), name)
         for name, path in archives.items()
     ]
-    whole = sheet([Group("", tiles)], params["columns"], params["tile_px"])
+    whole = sheet([Group("", tiles)], settings.columns, settings.tile_px)
     write_bytes(target, png_bytes(whole, compression))
 
 
@@ -29,6 +29,6 @@ if __name__ == "__main__":
         plot_renders(
             dict(zip(snakemake.params.objects, snakemake.input.pictures, strict=True)),
             snakemake.output.sheet,
-            snakemake.params.sheet,
+            RenderSheet.check(snakemake.params.sheet),
             snakemake.params.compression,
         )

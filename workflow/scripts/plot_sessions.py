@@ -1,7 +1,6 @@
 """Lay out the pictures of all grasps of each object: a group a task, a picture a session."""
 
 from collections.abc import Mapping, Sequence
-from typing import Any
 
 from grasptypes.files import write_bytes
 from grasptypes.jobs import job
@@ -9,6 +8,7 @@ from grasptypes.labels.dataset import DATASET_SCHEMA
 from grasptypes.renders.renderer import png_bytes
 from grasptypes.reports.session_pictures import read_named_pictures, session_groups
 from grasptypes.reports.sheets import sheet
+from grasptypes.settings.renders import SessionSheet
 from grasptypes.tables import read_table
 
 
@@ -17,7 +17,8 @@ def plot_sessions(
     archives: Mapping[str, str],
     targets: Mapping[str, str],
     tasks: Sequence[str],
-    params: Mapping[str, Any],
+    settings: SessionSheet,
+    png_compression: int,
 ) -> None:
     """Write a sheet for each object.
 
@@ -30,8 +31,8 @@ def plot_sessions(
     for name, archive in archives.items():
         rows = table[table.Object == name]
         groups = session_groups(rows, read_named_pictures(archive), tasks)
-        whole = sheet(groups, params["columns"], params["tile_px"])
-        write_bytes(targets[name], png_bytes(whole, params["png_compression"]))
+        whole = sheet(groups, settings.columns, settings.tile_px)
+        write_bytes(targets[name], png_bytes(whole, png_compression))
 
 
 if __name__ == "__main__":
@@ -42,5 +43,6 @@ if __name__ == "__main__":
             dict(zip(objects, snakemake.input.pictures, strict=True)),
             dict(zip(objects, snakemake.output.sheets, strict=True)),
             snakemake.params.tasks,
-            snakemake.params.settings,
+            SessionSheet.check(snakemake.params.settings),
+            snakemake.params.png_compression,
         )

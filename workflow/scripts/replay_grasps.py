@@ -8,8 +8,9 @@ from grasptypes.errors import InputError
 from grasptypes.jobs import job
 from grasptypes.labels.published import read_published
 from grasptypes.labels.published_source import PUBLISHED, published_path
-from grasptypes.labels.replay import REPLAY_SCHEMA, ReplaySettings, replay
+from grasptypes.labels.replay import REPLAY_SCHEMA, replay
 from grasptypes.objects.reference_meshes import REFERENCES, reference_meshes
+from grasptypes.settings.grasp_types import ReplaySettings
 from grasptypes.tables import write_table
 
 
@@ -40,7 +41,7 @@ if __name__ == "__main__":
         line = replay_grasps(
             published_path(os.environ),
             reference_meshes(os.environ),
-            ReplaySettings(**snakemake.params.settings),
+            ReplaySettings.check(snakemake.params.settings),
             Path(snakemake.output.table),
         )
         log.info(line)

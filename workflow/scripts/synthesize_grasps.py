@@ -2,54 +2,44 @@
 
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
 
 from grasptypes.contact_maps.contact_map_files import read_contact_map
 from grasptypes.jobs import job
+from grasptypes.objects.object_geometry import read_object
+from grasptypes.settings.physics import GraspTestSettings
+from grasptypes.settings.synthesis import SynthesisSettings
 from grasptypes.synthesis.grasps import ATTEMPT_SCHEMA, GRASP_SCHEMA
-from grasptypes.synthesis.holding import PhysicsSettings, read_body
-from grasptypes.synthesis.physics import physics
-from grasptypes.synthesis.search import read_thing
-from grasptypes.synthesis.settings import sampled_hand, search_settings
-from grasptypes.synthesis.trials import Problem, ValiditySettings, synthesize
+from grasptypes.synthesis.trials import SynthesisTask, synthesize
 from grasptypes.tables import write_table
 
 
 def write_grasps(
-    inputs: Mapping[str, str | Path],
+    task: SynthesisTask,
+    urdf: str | Path,
+    settings: tuple[SynthesisSettings, GraspTestSettings],
     outputs: Mapping[str, str | Path],
-    name: tuple[str, str],
-    seed_number: int,
-    synthesis: Mapping[str, Any],
-    physics_params: Mapping[str, Any],
 ) -> None:
-    """Write the grasps and attempts of `name` (object, task).
-
-    Args:
-        inputs: distance_grid, properties, collision, contact_map and hand (its URDF).
-        outputs: grasps and attempts.
-        synthesis, physics_params: those sections of params.yaml.
-    """
-    contact_map = read_contact_map(inputs["contact_map"])
-    thing = read_thing(inputs["distance_grid"], inputs["properties"], contact_map)
-    problem = Problem(*name, thing, contact_map, seed_number)
-    body = read_body(inputs["collision"], inputs["properties"])
-    validity = ValiditySettings(**physics_params["validity"])
-    with physics(inputs["hand"], body, PhysicsSettings(**physics_params["test"])) as world:
-        grasps, attempts = synthesize(
-            problem, sampled_hand(synthesis), world, search_settings(synthesis), validity
-        )
+    """Write the tables of grasps and attempts of a task, with the hand of a URDF."""
+    grasps, attempts = synthesize(task, urdf, *settings)
     write_table(grasps, outputs["grasps"], GRASP_SCHEMA)
     write_table(attempts, outputs["attempts"], ATTEMPT_SCHEMA)
 
 
 if __name__ == "__main__":
     with job(snakemake.log):
+        inputs, params = snakemake.input, snakemake.params
         write_grasps(
-            snakemake.input,
+            SynthesisTask(
+                snakemake.wildcards.object,
+                snakemake.wildcards.task,
+                read_object(Path(inputs.properties).parent),
+                read_contact_map(inputs.contact_map),
+                params.seed,
+            ),
+            inputs.hand,
+            (
+                SynthesisSettings.check(params.synthesis),
+                GraspTestSettings.check(params.physics),
+            ),
             snakemake.output,
-            (snakemake.wildcards.object, snakemake.wildcards.task),
-            snakemake.params.seed,
-            snakemake.params.synthesis,
-            snakemake.params.physics,
         )

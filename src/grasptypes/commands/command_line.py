@@ -40,11 +40,11 @@ def main(arguments: Sequence[str] | None = None) -> None:
     Bad input, a full disk and too little memory end with one line and exit status 1, Ctrl-C with
     130, as shells have it.
     """
-    asked = parser().parse_args(arguments)
+    args = parser().parse_args(arguments)
     logging.basicConfig(level=logging.ERROR)
     warnings.simplefilter("ignore")
     try:
-        sys.stdout.write(COMMANDS[asked.command].run(asked))
+        sys.stdout.write(COMMANDS[args.command].run(args))
     except InputError as error:
         sys.exit(f"error: {error}")
     except OSError as error:

@@ -7,15 +7,11 @@ import errno
 import os
 import tempfile
 from pathlib import Path
-from typing import Any
 
 from grasptypes.errors import InputError
-from grasptypes.settings.params import Params
-from grasptypes.yaml_files import read_yaml
+from grasptypes.settings.params import Params, read_params
 
 PARAMS = "params.yaml"
-# Draws for a user's mesh depend on this word, so that its file's name does not change the answer.
-MESH_WORD = "mesh"
 
 
 def printable(name: str) -> str:
@@ -38,17 +34,15 @@ def add_folder(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def folder_params(folder: Path) -> dict[str, Any]:
-    """The checked parameters of a checkout.
+def folder_params(folder: Path) -> Params:
+    """The parameters of a checkout.
 
     Raises:
-        InputError: there are none, or they do not meet the schema.
+        InputError: there are none, or wrong ones.
     """
     if not (folder / PARAMS).is_file():
         raise InputError(folder / PARAMS, "", "no such file; name a checkout with --folder")
-    params = read_yaml(folder / PARAMS)
-    Params.check(params, folder / PARAMS)
-    return params
+    return read_params(folder / PARAMS)
 
 
 def check_target(path: Path, suffix: str) -> None:

@@ -32,7 +32,7 @@ WHOLE = "*"
 
 
 @dataclass(frozen=True)
-class Hold:
+class AffinityRow:
     """One way to hold an object for a task.
 
     Attributes:
@@ -59,7 +59,7 @@ class Hold:
 
 def read_affinities(
     path: str | Path, objects: Collection[str], tasks: Collection[str]
-) -> dict[tuple[str, str], tuple[Hold, ...]]:
+) -> dict[tuple[str, str], tuple[AffinityRow, ...]]:
     """Read and check the table.
 
     Args:
@@ -87,7 +87,7 @@ def read_affinities(
         raise InputError(path, f"line {reader.line_num}", f"not a CSV row: {error}") from error
     if tuple(reader.fieldnames or ()) != COLUMNS:
         raise InputError(path, "line 1", f"the columns must be {', '.join(COLUMNS)}")
-    table: dict[tuple[str, str], list[Hold]] = {}
+    table: dict[tuple[str, str], list[AffinityRow]] = {}
     for line, row in enumerate(rows, start=2):
         if None in row or None in row.values():
             raise InputError(path, f"line {line}", f"must have {len(COLUMNS)} cells")
@@ -101,30 +101,33 @@ def read_affinities(
     return {key: tuple(holds) for key, holds in table.items()}
 
 
-def check_holds(
-    holds: Collection[Hold], name: tuple[str, str], part_names: Collection[str], path: str | Path
+def check_rows(
+    rows: Collection[AffinityRow],
+    name: tuple[str, str],
+    part_names: Collection[str],
+    path: str | Path,
 ) -> None:
-    """Check that an object and task (`name`) has holds, of parts that the object really has.
+    """Check that an object and task (`name`) has rows, of parts that the object really has.
 
     Raises:
         InputError: there is no row for them, or a row names a part the object does not have.
     """
-    if not holds:
+    if not rows:
         raise InputError(path, " and ".join(name), "has no row; add at least one")
-    for hold in holds:
-        for part in hold.parts:
+    for row in rows:
+        for part in row.parts:
             if part not in part_names:
                 allowed = ", ".join([*part_names, WHOLE])
                 where = f"part of {' and '.join(name)}"
                 raise InputError(path, where, f"'{part}' is not one of {allowed}")
 
 
-def _hold(path: Path, line: int, row: Mapping[str, Any]) -> Hold:
+def _hold(path: Path, line: int, row: Mapping[str, Any]) -> AffinityRow:
     _check_choice(path, line, "grip", row["grip"], STYLE_OF_GRIP)
     _check_choice(path, line, "approach", row["approach"], APPROACHES)
     _check_choice(path, line, "axis", row["axis"], AXES)
     low = _number(path, line, row, "low", 0.0, 1.0)
-    hold = Hold(
+    hold = AffinityRow(
         parts=() if row["part"] == WHOLE else tuple(row["part"].split("+")),
         grip=row["grip"],
         approach=row["approach"],

@@ -6,9 +6,8 @@ contact. The object's parts, and how far along the object the contact lies, come
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 import pandas as pd
@@ -22,6 +21,7 @@ from grasptypes.hand import configuration, kinematics, shapes
 from grasptypes.labels.replay import read_reference_mesh
 from grasptypes.objects.distance_grid import signed_distance
 from grasptypes.objects.object_files import Surface
+from grasptypes.settings.contact_maps import ContactEvidenceSettings
 
 Array = NDArray[np.float64]
 
@@ -109,7 +109,11 @@ class PartPoints(NamedTuple):
 
 
 def object_evidence(
-    grasps: pd.DataFrame, surface: Surface, scan: Path, scale: float, params: Mapping[str, Any]
+    grasps: pd.DataFrame,
+    surface: Surface,
+    scan: Path,
+    scale: float,
+    settings: ContactEvidenceSettings,
 ) -> list[dict[str, str | int | float]]:
     """Evidence of all published grasps of one object.
 
@@ -117,7 +121,6 @@ def object_evidence(
         grasps: rows of `published.read_published` with a configuration and a valid label.
         surface: our model, in metres at the grasped scale.
         scan: mesh of the real object at scale 1; where there is none, our model takes its place.
-        params: the `contact_evidence` section of params.yaml.
     """
     mesh = trimesh.Trimesh(surface.vertices, surface.faces, process=False)
     ours_m = np.asarray(surface.vertices) - _standing_origin(mesh)
@@ -126,7 +129,7 @@ def object_evidence(
         mesh = read_reference_mesh(scan, scale)
     names = [str(part) for part in surface.part_names]
     ours = PartPoints(ours_m, surface.part_index, names)
-    lengths = params["hand_spacing_m"], params["touch_m"]
+    lengths = settings.hand_spacing_m, settings.touch_m
     return [session_evidence(grasp, mesh, ours, *lengths) for _, grasp in grasps.iterrows()]
 
 

@@ -7,19 +7,21 @@ object; the population's map is the mean over as many persons as ContactDB recor
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 import trimesh
 from numpy.typing import ArrayLike, NDArray
 
-from grasptypes.contact_maps.affinities import STYLE_OF_GRIP, WHOLE, Hold
-from grasptypes.contact_maps.handprint import Hand, Placement, Surface, handprint
+from grasptypes.contact_maps.affinities import STYLE_OF_GRIP, WHOLE, AffinityRow
+from grasptypes.contact_maps.handprint import HeldSurface, HumanHand, Placement, handprint
 from grasptypes.contact_maps.placement import place_hand
 from grasptypes.errors import InputError
+from grasptypes.objects.object_files import Surface
+from grasptypes.objects.object_geometry import ObjectGeometry
 from grasptypes.seeds import rng, seed
+from grasptypes.settings.contact_maps import ContactMapSettings
 
 # Within about 70 degrees of the closing direction, a surface resists the digit that presses on it.
 OPPOSED_COSINE = 0.35
@@ -74,124 +76,128 @@ class Points:
 
 @dataclass(frozen=True)
 class Session:
-    """One person's way of holding: the hold, the placed hand, its size, and its contact (N,)."""
+    """One person's way of holding: the row, the placed hand, its size, and its contact (N,)."""
 
-    hold: Hold
+    row: AffinityRow
     placement: Placement
     height: float
-    hand: Hand
+    hand: HumanHand
     contact: NDArray[np.float64]
 
 
-def sample_surface(
-    vertices: ArrayLike, faces: ArrayLike, part_index: ArrayLike, count: int, seed_number: int
-) -> Points:
-    """At most `count` points spread evenly over a mesh.
+@dataclass(frozen=True)
+class MapTask:
+    """What the contact maps of one object and task are drawn from.
 
-    Args:
-        vertices: (V, 3) metres.
-        faces: (F, 3) indices.
-        part_index: (V,) part of each vertex; a face belongs to the part of its first vertex.
+    Attributes:
+        points: of the object.
+        part_names: of the object.
+        name: object and task, part of the key of every draw.
+        seed: part of that key, too.
+        scale: the object's size; hands grow with it, as ContactGrasp's contact maps do.
     """
-    mesh = trimesh.Trimesh(vertices, faces, process=False)
-    points_m, face = trimesh.sample.sample_surface_even(mesh, count, seed=seed_number)
-    parts = np.asarray(part_index)[np.asarray(faces)[face, 0]]
-    return Points(np.asarray(points_m), mesh.face_normals[face], parts.astype(np.int16))
+
+    points: Points
+    part_names: Sequence[str]
+    name: tuple[str, str]
+    seed: int
+    scale: float
+    settings: ContactMapSettings
+
+    @classmethod
+    def of_object(
+        cls,
+        geometry: ObjectGeometry,
+        name: tuple[str, str],
+        seed_number: int,
+        settings: ContactMapSettings,
+    ) -> MapTask:
+        """The task for a prepared object."""
+        mesh = geometry.surface
+        points = sample_surface(mesh, settings.points, seed("surface", name[0], seed_number))
+        names = [str(part) for part in mesh.part_names]
+        return cls(points, names, name, seed_number, geometry.properties.scale, settings)
+
+    def key(self, session: int) -> tuple[str, str, int, int]:
+        """All that a session's draws depend on beside the settings."""
+        return (*self.name, session, self.seed)
+
+    def draw_hand(self, draw: np.random.Generator) -> HumanHand:
+        """A person's hand."""
+        people = self.settings.people
+        group = people[int(draw.integers(len(people)))]
+        length_m = draw.normal(group.hand_length_m, group.hand_length_sd_m)
+        return HumanHand.of_length(self.scale * length_m, self.settings.hand)
+
+    def opposes(self, contact: NDArray[np.float64], closing: NDArray[np.float64]) -> bool:
+        """Whether what a contact (N,) touches faces both ways along the closing direction (3,)."""
+        facing = self.points.normals[contact >= self.settings.threshold] @ closing
+        return bool((facing > OPPOSED_COSINE).any() and (facing < -OPPOSED_COSINE).any())
 
 
-def draw_hand(draw: np.random.Generator, params: Mapping[str, Any], scale: float) -> Hand:
-    """A person's hand, grown with the object's scale as ContactGrasp's contact maps are.
-
-    Args:
-        params: the `contact_maps` section of params.yaml.
-    """
-    group = params["people"][int(draw.integers(len(params["people"])))]
-    length_m = draw.normal(group["hand_length_m"], group["hand_length_sd_m"])
-    return Hand.of_length(scale * length_m, params["hand"])
+def sample_surface(mesh: Surface, count: int, seed_number: int) -> Points:
+    """At most `count` points spread evenly over a surface; a face has its first vertex' part."""
+    shape = trimesh.Trimesh(mesh.vertices, mesh.faces, process=False)
+    points_m, face = trimesh.sample.sample_surface_even(shape, count, seed=seed_number % 2**31)
+    parts = np.asarray(mesh.part_index)[np.asarray(mesh.faces)[face, 0]]
+    return Points(np.asarray(points_m), shape.face_normals[face], parts.astype(np.int16))
 
 
-def draw_session(
-    points: Points,
-    part_names: Sequence[str],
-    holds: Sequence[Hold],
-    key: tuple[str, str, int, int],
-    params: Mapping[str, Any],
-    scale: float,
-) -> Session:
-    """One person's way of holding an object.
+def draw_session(task: MapTask, rows: Sequence[AffinityRow], number: int) -> Session:
+    """One person's way of holding an object, as one of the rows of the affinity table says.
 
     A person whose thumb and fingers do not end up on two sides of the object tries again.
 
-    Args:
-        key: object, task, session and seed: all that the draw depends on beside the parameters.
-        params: the `contact_maps` section of params.yaml.
-        scale: the object's.
-
     Raises:
-        InputError: nobody can hold the object as the drawn row of the affinity table says.
+        InputError: nobody can hold the object as the drawn row says.
     """
+    points, settings, key = task.points, task.settings, task.key(number)
     draw = rng("contact_map", *key)
-    hold = _choose(holds, key)
-    mask = np.isin(points.part_index, [part_names.index(part) for part in hold.parts])
-    if not hold.parts:
+    row = _choose(rows, key)
+    mask = np.isin(points.part_index, [task.part_names.index(part) for part in row.parts])
+    if not row.parts:
         mask[:] = True
-    surface = Surface(points.points_m, points.normals, mask)
-    hand = draw_hand(draw, params, scale)
-    for _ in range(params["tries"]):
-        placement, height = place_hand(surface, hold, hand, params["placement"], draw)
-        contact = handprint(surface, hold.grip, placement, hand)
-        if opposes(points.normals[contact >= params["threshold"]], placement.closing):
-            return Session(hold, placement, height, hand, contact)
+    surface = HeldSurface(points.points_m, points.normals, mask)
+    hand = task.draw_hand(draw)
+    for _ in range(settings.tries):
+        placement, height = place_hand(surface, row, hand, settings.placement, draw)
+        contact = handprint(surface, row.grip, placement, hand)
+        if task.opposes(contact, placement.closing):
+            return Session(row, placement, height, hand, contact)
     raise InputError(
-        params["affinities"],
-        f"{key[0]}, {key[1]}, {'+'.join(hold.parts) or WHOLE}, {hold.grip} {hold.approach}",
-        f"{params['tries']} people could not hold it this way: "
-        "thumb and fingers found no opposing sides",
+        settings.affinities,
+        f"{key[0]}, {key[1]}, {'+'.join(row.parts) or WHOLE}, {row.grip} {row.approach}",
+        f"{settings.tries} people could not hold it so: thumb and fingers found no two sides",
     )
 
 
-def map_contacts(
-    points: Points,
-    part_names: Sequence[str],
-    holds: Sequence[Hold],
-    name: tuple[str, str],
-    seed_number: int,
-    params: Mapping[str, Any],
-    scale: float,
-) -> ContactMap:
+def map_contacts(task: MapTask, rows: Sequence[AffinityRow]) -> ContactMap:
     """The population's map of an object and task, and the maps of its first people, the sessions.
 
     Args:
-        name: object and task.
-        params: the `contact_maps` section of params.yaml.
+        rows: of the affinity table, for this object and task.
     """
-    count = max(params["sessions"], params["population"])
-    people = [
-        draw_session(points, part_names, holds, (*name, number, seed_number), params, scale)
-        for number in range(1, count + 1)
-    ]
+    count = max(task.settings.sessions, task.settings.population)
+    people = [draw_session(task, rows, number) for number in range(1, count + 1)]
     probability = np.mean([person.contact for person in people], axis=0)
-    return of_sessions(points, part_names, probability, people[: params["sessions"]])
+    return of_sessions(task, probability, people[: task.settings.sessions])
 
 
 def of_sessions(
-    points: Points,
-    part_names: Sequence[str],
-    probability: NDArray[np.float64],
-    shown: Sequence[Session],
+    task: MapTask, probability: NDArray[np.float64], shown: Sequence[Session]
 ) -> ContactMap:
     """The contact map of a population's probability (N,) and the sessions drawn for it."""
-    grips = [person.hold.grip for person in shown]
+    points, grips = task.points, [person.row.grip for person in shown]
     return ContactMap(
         points=points.points_m.astype(np.float32),
         normals=points.normals.astype(np.float32),
         part_index=points.part_index,
-        part_names=np.array(part_names, dtype=np.str_),
+        part_names=np.array(task.part_names, dtype=np.str_),
         probability=_single(probability),
         sessions=_single([person.contact for person in shown]),
         style=np.array([STYLE_OF_GRIP[grip] for grip in grips]),
         grip=np.array(grips),
-        part=np.array(["+".join(person.hold.parts) or WHOLE for person in shown]),
+        part=np.array(["+".join(person.row.parts) or WHOLE for person in shown]),
         approach=_single([-person.placement.palm_side for person in shown]),
         closing=_single([person.placement.closing for person in shown]),
         centre_m=_single([person.placement.centre_m for person in shown]),
@@ -204,14 +210,8 @@ def _single(values: ArrayLike) -> NDArray[np.float32]:
     return np.asarray(values, dtype=np.float32)
 
 
-def opposes(normals: NDArray[np.float64], closing: NDArray[np.float64]) -> bool:
-    """Whether touched normals (K, 3) face both ways along the closing direction."""
-    facing = normals @ closing
-    return bool((facing > OPPOSED_COSINE).any() and (facing < -OPPOSED_COSINE).any())
-
-
-def _choose(holds: Sequence[Hold], key: tuple[str, str, int, int]) -> Hold:
-    """A hold by affinity: over any run of sessions each comes up in proportion to its affinity.
+def _choose(rows: Sequence[AffinityRow], key: tuple[str, str, int, int]) -> AffinityRow:
+    """A row by affinity: over any run of sessions each comes up in proportion to its affinity.
 
     Steps of the golden ratio leave no long gaps, so 20 sessions show the table's shares better
     than 20 independent draws would, and session 7 stays the same if there are 30.
@@ -219,5 +219,5 @@ def _choose(holds: Sequence[Hold], key: tuple[str, str, int, int]) -> Hold:
     object_name, task, session, seed_number = key
     start = seed("holds", object_name, task, seed_number) / 2**63
     quantile = (start + session * GOLDEN_RATIO) % 1.0
-    shares = np.cumsum([hold.affinity for hold in holds])
-    return holds[int(np.searchsorted(shares, quantile * shares[-1], side="right"))]
+    shares = np.cumsum([row.affinity for row in rows])
+    return rows[int(np.searchsorted(shares, quantile * shares[-1], side="right"))]

@@ -14,12 +14,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from grasptypes.contact_maps.outline import along_outline, convex_outline
+from grasptypes.settings.contact_maps import HandProportions
 
 Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
-class Hand:
+class HumanHand:
     """A hand's size (metres); the fields of `proportions` are keys of params.yaml.
 
     Attributes:
@@ -47,9 +48,10 @@ class Hand:
     softness_m: float
 
     @classmethod
-    def of_length(cls, length_m: float, proportions: dict[str, float]) -> Hand:
+    def of_length(cls, length_m: float, proportions: HandProportions) -> HumanHand:
         """A hand from its length and lengths relative to it, without the suffix `_m`."""
-        return cls(length_m, **{f"{key}_m": share * length_m for key, share in proportions.items()})
+        lengths = {f"{key}_m": share * length_m for key, share in proportions}
+        return cls(length_m, **lengths)
 
     def finger_offsets_m(self, count: int = 4) -> Array:
         """(count,) places of that many neighbouring fingers beside each other, around zero."""
@@ -76,7 +78,7 @@ class Placement:
 
 
 @dataclass(frozen=True)
-class Surface:
+class HeldSurface:
     """Points (N, 3) in metres, outward unit normals (N, 3) and which points the hand may touch."""
 
     points_m: Array
@@ -89,7 +91,7 @@ SPREAD_FINGERS_DEG = (-60.0, -20.0, 20.0, 60.0)
 THUMB_DEG = 180.0
 
 
-def handprint(surface: Surface, grip: str, placement: Placement, hand: Hand) -> Array:
+def handprint(surface: HeldSurface, grip: str, placement: Placement, hand: HumanHand) -> Array:
     """Contact (N,) between 0 and 1 of a hand that holds the surface with a grip of the table."""
     touches = {
         "wrap": _wrap,
@@ -104,7 +106,7 @@ def handprint(surface: Surface, grip: str, placement: Placement, hand: Hand) -> 
     return contact * surface.mask
 
 
-def _wrap(surface: Surface, place: Placement, hand: Hand) -> list[Array]:
+def _wrap(surface: HeldSurface, place: Placement, hand: HumanHand) -> list[Array]:
     offsets = hand.finger_offsets_m()
     fingers = [
         _trace(surface, place, place.closing, offset, hand.finger_reach_m, hand)
@@ -119,7 +121,7 @@ def _wrap(surface: Surface, place: Placement, hand: Hand) -> list[Array]:
     return [*fingers, thumb, *palm]
 
 
-def _enclose(surface: Surface, place: Placement, hand: Hand) -> list[Array]:
+def _enclose(surface: HeldSurface, place: Placement, hand: HumanHand) -> list[Array]:
     directions = _spread(place)
     reaches = [hand.thumb_reach_m] + [hand.finger_reach_m] * len(SPREAD_FINGERS_DEG)
     digits = [
@@ -130,7 +132,7 @@ def _enclose(surface: Surface, place: Placement, hand: Hand) -> list[Array]:
     return digits if palm is None else [*digits, _pad(surface, palm, hand.palm_radius_m)]
 
 
-def _tripod(surface: Surface, place: Placement, hand: Hand) -> list[Array]:
+def _tripod(surface: HeldSurface, place: Placement, hand: HumanHand) -> list[Array]:
     touched = []
     chosen = (THUMB_DEG, *np.linspace(-60.0, 60.0, place.fingers))
     for angle_deg in chosen:
@@ -145,16 +147,16 @@ def _tripod(surface: Surface, place: Placement, hand: Hand) -> list[Array]:
     return touched
 
 
-def _pinch(surface: Surface, place: Placement, hand: Hand) -> list[Array]:
+def _pinch(surface: HeldSurface, place: Placement, hand: HumanHand) -> list[Array]:
     return _oppose(surface, place, hand, hand.span_m)
 
 
-def _rim(surface: Surface, place: Placement, hand: Hand) -> list[Array]:
+def _rim(surface: HeldSurface, place: Placement, hand: HumanHand) -> list[Array]:
     """As a pinch, but through the nearest wall, not through the whole object."""
     return _oppose(surface, place, hand, 2 * hand.pad_radius_m)
 
 
-def _oppose(surface: Surface, place: Placement, hand: Hand, reach_m: float) -> list[Array]:
+def _oppose(surface: HeldSurface, place: Placement, hand: HumanHand, reach_m: float) -> list[Array]:
     starts = [(0.0, -place.closing)]
     starts += [(offset, place.closing) for offset in hand.finger_offsets_m(place.fingers)]
     exits = [
@@ -174,7 +176,7 @@ def _around(place: Placement, angle_deg: float) -> Array:
 
 
 def _exit(
-    surface: Surface, origin_m: Array, direction: Array, radius_m: float, reach_m: float
+    surface: HeldSurface, origin_m: Array, direction: Array, radius_m: float, reach_m: float
 ) -> int | None:
     """Index of the last point facing `direction` on a thick line out of the origin, if any."""
     offset = surface.points_m - origin_m
@@ -185,19 +187,19 @@ def _exit(
     return int(np.argmax(np.where(facing, along, -np.inf))) if facing.any() else None
 
 
-def _pad(surface: Surface, index: int, radius_m: float) -> Array:
+def _pad(surface: HeldSurface, index: int, radius_m: float) -> Array:
     """A patch (N,) of that radius around a point, on what faces the same way."""
     distance = np.linalg.norm(surface.points_m - surface.points_m[index], axis=1)
     return _plateau(distance / radius_m) * _facing(surface.normals @ surface.normals[index])
 
 
 def _trace(
-    surface: Surface,
+    surface: HeldSurface,
     place: Placement,
     direction: Array,
     offset_m: float,
     reach_m: float,
-    hand: Hand,
+    hand: HumanHand,
     half_width_m: float | None = None,
 ) -> Array:
     """Contact (N,) of a digit from under the palm towards `direction`, `reach_m` along the outline.

@@ -2,30 +2,27 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-
 import numpy as np
 from numpy.typing import NDArray
 
-from grasptypes.contact_maps.affinities import Hold
-from grasptypes.contact_maps.handprint import Hand, Placement, Surface
+from grasptypes.contact_maps.affinities import AffinityRow
+from grasptypes.contact_maps.handprint import HeldSurface, HumanHand, Placement
+from grasptypes.settings.contact_maps import PlacementSettings
 
 Array = NDArray[np.float64]
 
 
 def place_hand(
-    surface: Surface,
-    hold: Hold,
-    hand: Hand,
-    params: Mapping[str, float],
+    surface: HeldSurface,
+    hold: AffinityRow,
+    hand: HumanHand,
+    settings: PlacementSettings,
     draw: np.random.Generator,
 ) -> tuple[Placement, float]:
     """Put a hand on the held parts as the hold says, with a person's own deviation from it.
 
     Args:
         surface: of the object, its mask on the held parts.
-        params: `tilt_sd_rad` and `roll_sd_rad` of the palm, `slice_m` (thickness of the cut that
-            the centre is taken from), `depth_m` (of the fingertips below a rim).
 
     Returns:
         The placement and the height (0 to 1) of its centre along the held parts.
@@ -33,16 +30,16 @@ def place_hand(
     held = surface.points_m[surface.mask]
     long_axis = _axis(hold.axis, held)
     height = float(draw.uniform(hold.low, hold.high))
-    centre_m = _centre(held, long_axis, height, params["slice_m"])
-    palm_side = _palm_side(hold, long_axis, params["tilt_sd_rad"], draw)
+    centre_m = _centre(held, long_axis, height, settings.slice_m)
+    palm_side = _palm_side(hold, long_axis, settings.tilt_sd_rad, draw)
     axis = long_axis - (long_axis @ palm_side) * palm_side
     end_on = np.linalg.norm(axis) < 0.5
     if end_on:
         axis = _any_normal(palm_side)
     axis /= np.linalg.norm(axis)
     if hold.grip == "rim":
-        centre_m, axis = _rim_centre(held, palm_side, params["depth_m"], draw)
-    roll = draw.uniform(0, 2 * np.pi) if end_on else draw.normal(0.0, params["roll_sd_rad"])
+        centre_m, axis = _rim_centre(held, palm_side, settings.depth_m, draw)
+    roll = draw.uniform(0, 2 * np.pi) if end_on else draw.normal(0.0, settings.roll_sd_rad)
     if hold.grip != "rim":
         axis = np.cos(roll) * axis + np.sin(roll) * np.cross(palm_side, axis)
     # Either hand, and the thumb at either end.
@@ -71,7 +68,9 @@ def _centre(held: Array, axis: Array, height: float, slice_m: float) -> Array:
     return (aside.min(axis=0) + aside.max(axis=0)) / 2 + at * axis
 
 
-def _palm_side(hold: Hold, long_axis: Array, tilt_sd: float, draw: np.random.Generator) -> Array:
+def _palm_side(
+    hold: AffinityRow, long_axis: Array, tilt_sd: float, draw: np.random.Generator
+) -> Array:
     if hold.approach == "around":
         side = draw.normal(size=3)
         side -= (side @ long_axis) * long_axis

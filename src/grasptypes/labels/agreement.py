@@ -14,20 +14,23 @@ from scipy.special import expit
 from sklearn.metrics import cohen_kappa_score
 
 from grasptypes.hand import configuration, kinematics
-from grasptypes.labels.contacts import ContactSettings, DistanceField, find_contacts
+from grasptypes.labels.contacts import DistanceField, find_contacts
 from grasptypes.labels.grasp_type import (
     GRASP_TYPES,
     INVALID,
     Measures,
-    Thresholds,
     classify,
     measure,
+    type_chances,
 )
+from grasptypes.settings.grasp_types import ContactSettings, Softness, Thresholds
 
 Array = NDArray[np.float64]
 
 ALL = "all"
 TYPES = GRASP_TYPES[: GRASP_TYPES.index(INVALID)]
+# In the order of `Measures`.
+THRESHOLDS = tuple(Thresholds.model_fields)
 
 AGREEMENT_SCHEMA = pa.DataFrameSchema(
     {
@@ -43,14 +46,14 @@ AGREEMENT_SCHEMA = pa.DataFrameSchema(
 THRESHOLD_SCHEMA = pa.DataFrameSchema(
     {
         **AGREEMENT_SCHEMA.columns,
-        **{name: pa.Column(float, pa.Check.gt(0)) for name in Thresholds._fields},
+        **{name: pa.Column(float, pa.Check.gt(0)) for name in THRESHOLDS},
     },
     strict=True,
     ordered=True,
 )
 
 
-class Judged(NamedTuple):
+class PublishedMeasures(NamedTuple):
     """Published grasps of n poses: what people said and what is measured."""
 
     objects: NDArray[np.str_]
@@ -60,15 +63,15 @@ class Judged(NamedTuple):
     measures: Measures
     """Fields (n,)."""
 
-    def select(self, chosen: NDArray[np.bool_]) -> Judged:
+    def select(self, chosen: NDArray[np.bool_]) -> PublishedMeasures:
         """The grasps where `chosen` (n,) holds."""
         measures = Measures(*(values[chosen] for values in self.measures))
-        return Judged(self.objects[chosen], self.labels[chosen], measures)
+        return PublishedMeasures(self.objects[chosen], self.labels[chosen], measures)
 
 
-def judge(
+def measure_published(
     published: pd.DataFrame, fields: Mapping[str, DistanceField], settings: ContactSettings
-) -> Judged:
+) -> PublishedMeasures:
     """Measure the published grasps that people gave a type and that have a configuration.
 
     Args:
@@ -84,7 +87,7 @@ def judge(
     ordered = chosen.sort_values("object", kind="stable")
     labels = np.array([TYPES.index(name) for name in ordered.grasp_type], dtype=np.int64)
     columns = np.concatenate([np.stack(part) for part in parts], axis=1)
-    return Judged(ordered.object.to_numpy(dtype=str), labels, Measures(*columns))
+    return PublishedMeasures(ordered.object.to_numpy(dtype=str), labels, Measures(*columns))
 
 
 def _measure(numbers: Array, field: DistanceField, settings: ContactSettings) -> Measures:
@@ -93,7 +96,9 @@ def _measure(numbers: Array, field: DistanceField, settings: ContactSettings) ->
     return measure(find_contacts(field, hand.T_object_hand, joint_angles, settings), joint_angles)
 
 
-def agreement(judged: Judged, predicted: NDArray[np.int64], fitted_on: ArrayLike) -> pd.DataFrame:
+def agreement(
+    published: PublishedMeasures, predicted: NDArray[np.int64], fitted_on: ArrayLike
+) -> pd.DataFrame:
     """A row an object and one for all.
 
     Args:
@@ -106,11 +111,11 @@ def agreement(judged: Judged, predicted: NDArray[np.int64], fitted_on: ArrayLike
     """
     fitted_on = np.asarray(fitted_on, dtype=str)
     rows = [
-        _row(str(name), judged.labels[own], predicted[own], fitted_on[own])
-        for name in np.unique(judged.objects)
-        for own in [judged.objects == name]
+        _row(str(name), published.labels[own], predicted[own], fitted_on[own])
+        for name in np.unique(published.objects)
+        for own in [published.objects == name]
     ]
-    rows.append(_row(ALL, judged.labels, predicted, fitted_on))
+    rows.append(_row(ALL, published.labels, predicted, fitted_on))
     return pd.DataFrame(rows, columns=list(AGREEMENT_SCHEMA.columns))
 
 
@@ -139,63 +144,53 @@ def describe_fit(objects: Iterable[str], fitted_on: Iterable[str]) -> list[str]:
     return [own if name in seen else others for name in objects]
 
 
-def confusion(judged: Judged, predicted: NDArray[np.int64]) -> NDArray[np.int64]:
+def confusion(published: PublishedMeasures, predicted: NDArray[np.int64]) -> NDArray[np.int64]:
     """Counts (6, 6): rows are the people's types, columns the rule's."""
     counts = np.zeros((len(TYPES), len(TYPES)), dtype=np.int64)
-    np.add.at(counts, (judged.labels, predicted), 1)
+    np.add.at(counts, (published.labels, predicted), 1)
     return counts
 
 
-def fit_thresholds(judged: Judged, softness: Thresholds) -> Thresholds:
+def fit_thresholds(published: PublishedMeasures, softness: Softness) -> Thresholds:
     """Thresholds with the highest expected accuracy if each branch is taken by a logistic chance.
 
     The chance depends on the logarithm of measure over threshold, divided by `softness`: a smooth
     aim has a broad best value, where plain accuracy has many narrow ones. The search begins at the
     medians of the measures, so that the result is a matter of these grasps alone.
-
-    Args:
-        softness: widths in natural logarithms.
     """
-    measured = np.log(np.maximum(np.stack(judged.measures), 1e-6))
-    widths = np.asarray(softness)[:, None]
+    measured = np.log(np.maximum(np.stack(published.measures), 1e-6))
+    widths = np.array([getattr(softness, name) for name in THRESHOLDS])[:, None]
+    rows = np.arange(len(published.labels))
 
     def loss(log_thresholds: Array) -> float:
         """Less the mean chance that thresholds (4,) of soft edges give to people's types."""
         above = expit((measured - log_thresholds[:, None]) / widths)
-        chance = _type_chances(*above)
-        return -float(chance[judged.labels, np.arange(len(judged.labels))].mean())
+        chance = type_chances(dict(zip(Measures._fields, above, strict=True)))
+        return -float(chance[published.labels, rows].mean())
 
     options = {"maxiter": 600, "xatol": 1e-4, "fatol": 1e-7}
     start = np.median(measured, axis=1)
     best = minimize(loss, start, method="Nelder-Mead", options=options)
-    return Thresholds(*(float(value) for value in np.exp(best.x)))
+    return Thresholds(**dict(zip(THRESHOLDS, np.exp(best.x).tolist(), strict=True)))
 
 
-def _type_chances(off_palm: Array, open_hand: Array, three: Array, large: Array) -> Array:
-    """Chances (6, n) of `TYPES` if the tree's branches are taken with chances (n,)."""
-    wrap = (1 - off_palm) * open_hand * (1 - three)
-    small = (1 - off_palm) * (1 - open_hand)
-    sphere = (1 - off_palm) * open_hand * three
-    return np.stack(
-        [wrap * large, wrap * (1 - large), small, sphere, off_palm * three, off_palm * (1 - three)]
-    )
-
-
-def cross_validate(judged: Judged, softness: Thresholds) -> pd.DataFrame:
+def cross_validate(published: PublishedMeasures, softness: Softness) -> pd.DataFrame:
     """Label each object with thresholds fitted on all others.
 
     Returns:
         A table of `THRESHOLD_SCHEMA`: an object's row holds the thresholds it was labelled with,
         the last row those fitted on all objects (its accuracy is that of the rows above together).
     """
-    predicted = np.empty(len(judged.labels), dtype=np.int64)
-    names = np.unique(judged.objects)
+    predicted = np.empty(len(published.labels), dtype=np.int64)
+    names = np.unique(published.objects)
     fitted = []
     for name in names:
-        own = judged.objects == name
-        fitted.append(fit_thresholds(judged.select(~own), softness))
-        predicted[own] = classify(judged.select(own).measures, fitted[-1])
-    fitted.append(fit_thresholds(judged, softness))
+        own = published.objects == name
+        fitted.append(fit_thresholds(published.select(~own), softness))
+        predicted[own] = classify(published.select(own).measures, fitted[-1])
+    fitted.append(fit_thresholds(published, softness))
     words = [f"{len(names) - 1} other objects"] * len(predicted)
-    table = agreement(judged, predicted, words)
-    return pd.concat([table, pd.DataFrame(fitted).round(5)], axis=1)
+    table = agreement(published, predicted, words)
+    return pd.concat(
+        [table, pd.DataFrame([found.model_dump() for found in fitted]).round(5)], axis=1
+    )

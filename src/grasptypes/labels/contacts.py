@@ -19,6 +19,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from grasptypes.hand import kinematics, shapes
+from grasptypes.settings.grasp_types import ContactSettings
 
 Array = NDArray[np.float64]
 
@@ -71,19 +72,6 @@ class MeshDistance:
 def _face_normals(vertices: Array, faces: NDArray[np.int64]) -> Array:
     a, b, c = (vertices[faces[:, corner]] for corner in range(3))
     return unit(np.cross(b - a, c - a))
-
-
-class ContactSettings(NamedTuple):
-    """How contacts are measured."""
-
-    surface_spacing_m: float
-    """Distance between neighbouring points on the hand, metres."""
-    patch_depth_m: float
-    """A link's points further from the object than its nearest one count less by e, metres."""
-    reach_m: float
-    """Gap at which a link no longer pushes, metres."""
-    closing_weight: float
-    """Length of the closing direction added to the unit normal, without unit."""
 
 
 class Contacts(NamedTuple):

@@ -11,9 +11,10 @@ import pandera.pandas as pa
 
 from grasptypes.exchange.published_csv import authors_columns
 from grasptypes.hand import configuration, kinematics
-from grasptypes.labels.contacts import ContactSettings, DistanceField, find_contacts
-from grasptypes.labels.grasp_type import GRASP_TYPES, INVALID, Thresholds, explain, measure
+from grasptypes.labels.contacts import DistanceField, find_contacts
+from grasptypes.labels.grasp_type import GRASP_TYPES, INVALID, explain, measure
 from grasptypes.labels.samples import COUNTS, samples_from_counts
+from grasptypes.settings.grasp_types import ContactSettings, Thresholds
 
 VALID = "valid"
 _MEASURES = {

@@ -14,6 +14,7 @@ See docs/grasp_types.md for the types' names elsewhere.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import NamedTuple
 
 import numpy as np
@@ -22,6 +23,7 @@ from numpy.typing import ArrayLike, NDArray
 from grasptypes.hand import kinematics
 from grasptypes.hand.parts import DISTAL_HUB_RADIUS_M
 from grasptypes.labels.contacts import DISTAL_LINKS, FINGER_LINKS, PALM, Contacts
+from grasptypes.settings.grasp_types import Thresholds
 
 Array = NDArray[np.float64]
 
@@ -40,17 +42,51 @@ GRASP_TYPES = (
 )
 
 
-class Thresholds(NamedTuple):
-    """Where the tree branches."""
+class Branch(NamedTuple):
+    """A question of the tree: is a measure above its threshold?"""
 
-    palm_gap_m: float
-    """Up to this gap between palm and object a grasp is a power grasp, metres."""
-    small_diameter_m: float
-    """Up to this enclosed diameter a power grasp is a small wrap, metres."""
-    sideways_share: float
-    """Above this share of sideways push a third virtual finger acts, 0 to 1."""
-    large_span_m: float
-    """Above this span between opposing fingertips a wrap is large, metres."""
+    measure: str
+    """A field of `Measures`."""
+    threshold: str
+    """A field of `Thresholds`."""
+    name: str
+    below: Branch | str
+    """What follows if it is not: another question or a grasp type."""
+    above: Branch | str
+
+
+_SPHERE_OR_WRAP = Branch(
+    "sideways_share",
+    "sideways_share",
+    "sideways share",
+    below=Branch("span_m", "large_span_m", "fingertip span", MEDIUM_WRAP, LARGE_WRAP),
+    above=POWER_SPHERE,
+)
+TREE = Branch(
+    "palm_gap_m",
+    "palm_gap_m",
+    "palm gap",
+    below=Branch(
+        "enclosed_diameter_m",
+        "small_diameter_m",
+        "enclosed diameter",
+        below=SMALL_WRAP,
+        above=_SPHERE_OR_WRAP,
+    ),
+    above=Branch("sideways_share", "sideways_share", "sideways share", PRECISION, PRECISION_SPHERE),
+)
+
+
+def virtual_fingers(grasp_type: str) -> int:
+    """How many virtual fingers hold with a grasp type: three with spheres, else two."""
+    return 3 if grasp_type in (POWER_SPHERE, PRECISION_SPHERE) else 2
+
+
+def leaves(branch: Branch | str = TREE) -> list[str]:
+    """The grasp types below a branch, from left to right."""
+    if isinstance(branch, str):
+        return [branch]
+    return leaves(branch.below) + leaves(branch.above)
 
 
 class Measures(NamedTuple):
@@ -125,44 +161,67 @@ def fingertip_span(contacts: Contacts) -> Array:
     return np.maximum(*spans)
 
 
+def type_chances(above: Mapping[str, Array]) -> Array:
+    """Chances (6, n) of the first six `GRASP_TYPES` for n grasps.
+
+    Args:
+        above: by measure the chance (n,) that it is above its threshold; 0 and 1 if it is known.
+    """
+    chances: dict[str, Array] = {}
+
+    def follow(branch: Branch | str, chance: Array | float) -> None:
+        """Share a chance among what lies below a branch."""
+        if isinstance(branch, str):
+            chances[branch] = np.asarray(chance)
+            return
+        follow(branch.below, chance * (1 - above[branch.measure]))
+        follow(branch.above, chance * above[branch.measure])
+
+    follow(TREE, 1.0)
+    return np.stack([chances[name] for name in GRASP_TYPES[:-1]])
+
+
 def classify(measures: Measures, thresholds: Thresholds) -> NDArray[np.int64]:
     """Indices (n,) into `GRASP_TYPES`, 0 to 5: the tree, for all grasps at once."""
-    at_palm = measures.palm_gap_m <= thresholds.palm_gap_m
-    small = measures.enclosed_diameter_m <= thresholds.small_diameter_m
-    three = measures.sideways_share > thresholds.sideways_share
-    large = measures.span_m > thresholds.large_span_m
-    conditions = [at_palm & small, at_palm & three, at_palm & large, at_palm, three]
-    types = [SMALL_WRAP, POWER_SPHERE, LARGE_WRAP, MEDIUM_WRAP, PRECISION_SPHERE]
-    indices = [GRASP_TYPES.index(name) for name in types]
-    return np.select(conditions, indices, default=GRASP_TYPES.index(PRECISION))
+    limits = measure_limits(thresholds)
+    above = {
+        name: (values > limits[name]).astype(np.float64)
+        for name, values in measures._asdict().items()
+    }
+    return type_chances(above).argmax(axis=0)
+
+
+def measure_limits(thresholds: Thresholds, branch: Branch | str = TREE) -> dict[str, float]:
+    """The threshold of each of `Measures` at and below a branch."""
+    if isinstance(branch, str):
+        return {}
+    below = measure_limits(thresholds, branch.below) | measure_limits(thresholds, branch.above)
+    return {branch.measure: getattr(thresholds, branch.threshold)} | below
 
 
 def explain(measures: Measures, thresholds: Thresholds) -> list[Label]:
     """The labels of n grasps, each with its way through the tree."""
-    types = classify(measures, thresholds)
-    return [
-        _explain(GRASP_TYPES[grasp_type], values.tolist(), thresholds)
-        for grasp_type, values in zip(types, np.stack(measures, axis=1), strict=True)
-    ]
+    columns = {name: values.tolist() for name, values in measures._asdict().items()}
+    rows = zip(*columns.values(), strict=True)
+    return [_explain(dict(zip(columns, row, strict=True)), thresholds) for row in rows]
 
 
-def _explain(grasp_type: str, measured: list[float], thresholds: Thresholds) -> Label:
-    """The explanation of one grasp whose type is known, measured in the order of `Measures`."""
-    names = ("palm gap", "enclosed diameter", "sideways share", "fingertip span")
-    palm, small, sideways, large = zip(names, measured, thresholds, strict=True)
-    if grasp_type in (PRECISION, PRECISION_SPHERE):
-        kind, passed = "precision", [palm, sideways]
-    else:
-        kind, passed = "power", [palm, small, sideways, large]
-        passed = passed[: {SMALL_WRAP: 2, POWER_SPHERE: 3}.get(grasp_type, 4)]
-    steps = [_step(*threshold) for threshold in passed]
-    margins = [abs(value - limit) / limit for _, value, limit in passed]
-    fingers = 3 if grasp_type in (POWER_SPHERE, PRECISION_SPHERE) else 2
-    return Label(grasp_type, fingers, f"{kind}: " + ", ".join(steps), float(min(margins)))
+def _explain(measured: Mapping[str, float], thresholds: Thresholds) -> Label:
+    """The label of one grasp."""
+    branch: Branch | str = TREE
+    steps, margins = [], []
+    while isinstance(branch, Branch):
+        value, limit = measured[branch.measure], getattr(thresholds, branch.threshold)
+        sign = ">" if value > limit else "<="
+        amounts = amount(branch.measure, value), amount(branch.measure, limit)
+        steps.append(f"{branch.name} {amounts[0]} {sign} {amounts[1]}")
+        margins.append(abs(value - limit) / limit)
+        branch = branch.above if value > limit else branch.below
+    kind = "power" if branch in leaves(TREE.below) else "precision"
+    way = f"{kind}: " + ", ".join(steps)
+    return Label(branch, virtual_fingers(branch), way, float(min(margins)))
 
 
-def _step(name: str, value: float, limit: float) -> str:
-    sign = ">" if value > limit else "<="
-    if name.endswith("share"):
-        return f"{name} {value:.3f} {sign} {limit:.3f}"
-    return f"{name} {value * 1e3:.1f} mm {sign} {limit * 1e3:.1f} mm"
+def amount(measure: str, value: float) -> str:
+    """A value of one of `Measures` in words."""
+    return f"{value:.3f}" if measure.endswith("share") else f"{value * 1e3:.1f} mm"

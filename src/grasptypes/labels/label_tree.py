@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import NamedTuple
 
 import numpy as np
 import pandas as pd
@@ -12,56 +11,14 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from grasptypes.labels.dataset import VALID
-from grasptypes.labels.grasp_type import (
-    LARGE_WRAP,
-    MEDIUM_WRAP,
-    POWER_SPHERE,
-    PRECISION,
-    PRECISION_SPHERE,
-    SMALL_WRAP,
-    Thresholds,
-)
+from grasptypes.labels.grasp_type import TREE, Branch, amount, leaves, virtual_fingers
+from grasptypes.settings.grasp_types import Thresholds
 
 Picture = NDArray[np.uint8]
 
 # Layout in places between leaves and steps between questions: half the height of a question's box,
 # the top of the leaves, and half the width of the words at a branch.
 HALF, LEAF_TOP, WORDS = 0.19, -3.85, 0.28
-
-
-class Branch(NamedTuple):
-    """A question: is the measure above its threshold? `above` and `below` are what follows."""
-
-    measure: str
-    """A field of `grasp_type.Thresholds`."""
-    question: str
-    below: Branch | str
-    above: Branch | str
-
-
-TREE = Branch(
-    "palm_gap_m",
-    "palm gap",
-    below=Branch(
-        "small_diameter_m",
-        "enclosed diameter",
-        below=SMALL_WRAP,
-        above=Branch(
-            "sideways_share",
-            "sideways share",
-            below=Branch("large_span_m", "fingertip span", below=MEDIUM_WRAP, above=LARGE_WRAP),
-            above=POWER_SPHERE,
-        ),
-    ),
-    above=Branch("sideways_share", "sideways share", below=PRECISION, above=PRECISION_SPHERE),
-)
-
-
-def leaves(branch: Branch | str = TREE) -> list[str]:
-    """The grasp types below a branch, from left to right."""
-    if isinstance(branch, str):
-        return [branch]
-    return leaves(branch.below) + leaves(branch.above)
 
 
 def typical_grasps(dataset: pd.DataFrame) -> dict[str, pd.Series]:
@@ -117,7 +74,7 @@ def _draw(
 ) -> float:
     """Draw a branch and all below it; returns where it stands from left to right."""
     place, bottom = float(np.mean([places[name] for name in leaves(branch)])), -depth - HALF
-    limit = _amount(branch.measure, getattr(thresholds, branch.measure))
+    limit = amount(branch.measure, getattr(thresholds, branch.threshold))
     for child, words in ((branch.below, f"≤ {limit}"), (branch.above, f"> {limit}")):
         if isinstance(child, str):
             end = places[child], LEAF_TOP
@@ -129,7 +86,7 @@ def _draw(
         at = place + down * (end[0] - place), bottom + down * (end[1] - bottom)
         axes.text(*at, words, ha="center", va="center", fontsize="small", bbox=_BARE)
     number = sum(counts.get(name, 0) for name in leaves(branch))
-    text = f"{branch.question}\n{number} grasps"
+    text = f"{branch.name}\n{number} grasps"
     axes.text(place, -depth, text, ha="center", va="center", fontsize="small", bbox=_BOX)
     return place
 
@@ -139,10 +96,5 @@ _BARE = {"facecolor": "white", "edgecolor": "none", "pad": 1.0}
 
 
 def _leaf(axes: Axes, name: str, place: float, counts: Mapping[str, int]) -> None:
-    fingers = 3 if name in (POWER_SPHERE, PRECISION_SPHERE) else 2
-    text = f"{name}\n{counts.get(name, 0)} grasps\n{fingers} virtual fingers"
+    text = f"{name}\n{counts.get(name, 0)} grasps\n{virtual_fingers(name)} virtual fingers"
     axes.text(place, -4.12, text, ha="center", va="center", fontsize="small", bbox=_BOX)
-
-
-def _amount(measure: str, value: float) -> str:
-    return f"{value:.3f}" if measure.endswith("share") else f"{value * 1e3:.1f} mm"

@@ -4,15 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
 
 from grasptypes.errors import InputError
-from grasptypes.labels.agreement import Judged, judge
-from grasptypes.labels.contacts import ContactSettings
+from grasptypes.labels.agreement import PublishedMeasures, measure_published
 from grasptypes.labels.published import read_published
 from grasptypes.labels.published_objects import object_distances
 from grasptypes.labels.published_source import PUBLISHED, published_path
 from grasptypes.objects.reference_meshes import REFERENCES
+from grasptypes.settings.grasp_types import GraspTypeSettings
 
 SOURCES = {
     PUBLISHED: "get GraspTypesWithTasks.csv from github.com/nikleer/GraspTypesWithTasks, or give "
@@ -34,16 +33,15 @@ def lacking_data(environment: Mapping[str, str]) -> str:
     )
 
 
-def judge_published(
-    environment: Mapping[str, str], own: str | Path, scale: float, settings: Mapping[str, Any]
-) -> Judged:
+def read_measures(
+    environment: Mapping[str, str], own: str | Path, scale: float, settings: GraspTypeSettings
+) -> PublishedMeasures:
     """Measure all published poses that have a type, a configuration and an object.
 
     Args:
         environment: names the published table, by path or URL, and the folder of reference meshes.
         own: folder of the objects prepared here, for those without a reference mesh.
         scale: of the reference meshes.
-        settings: `contacts` and `own_frames`, of the `grasp_types` section of params.yaml.
     """
     path = published_path(environment)
     published = read_published(path)
@@ -51,5 +49,5 @@ def judge_published(
         raise InputError(path, "", "has no grasp with a hand configuration")
     names = sorted(published.object.unique())
     references = environment[REFERENCES]
-    fields = object_distances(names, references, own, scale, settings["own_frames"])
-    return judge(published, fields, ContactSettings(**settings["contacts"]))
+    fields = object_distances(names, references, own, scale, settings.own_frames)
+    return measure_published(published, fields, settings.contacts)

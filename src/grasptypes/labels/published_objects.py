@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import trimesh
@@ -12,6 +11,7 @@ import trimesh
 from grasptypes.labels.contacts import MeshDistance
 from grasptypes.labels.replay import read_reference_mesh
 from grasptypes.objects.object_files import SURFACE, read_surface
+from grasptypes.settings.grasp_types import ModelFrame
 
 
 def object_distances(
@@ -19,7 +19,7 @@ def object_distances(
     references: str | Path,
     own: str | Path,
     scale: float,
-    own_frames: Mapping[str, Mapping[str, Any]],
+    own_frames: Mapping[str, ModelFrame],
 ) -> dict[str, MeshDistance]:
     """Distances to the objects, in the frame of the published poses.
 
@@ -28,7 +28,7 @@ def object_distances(
         references: folder of `<object>.stl`.
         own: folder of `<object>/surface.npz`, the objects that were prepared here at scale.
         scale: of the reference meshes.
-        own_frames: for some objects `rotation` (3 x 3) and `shift_m` of our own model.
+        own_frames: how our own models of some objects lie in that frame.
 
     Raises:
         InputError: a mesh cannot be read.
@@ -47,7 +47,7 @@ def object_distances(
     return distances
 
 
-def own_mesh(path: str | Path, frame: Mapping[str, Any] | None) -> trimesh.Trimesh:
+def own_mesh(path: str | Path, frame: ModelFrame | None) -> trimesh.Trimesh:
     """Our own model, metres, standing on the ground with its middle above the origin.
 
     Args:
@@ -57,8 +57,8 @@ def own_mesh(path: str | Path, frame: Mapping[str, Any] | None) -> trimesh.Trime
     surface = read_surface(path)
     vertices = surface.vertices
     if frame:
-        vertices = vertices @ np.asarray(frame["rotation"], dtype=np.float64).T
+        vertices = vertices @ np.asarray(frame.rotation, dtype=np.float64).T
     lower, upper = vertices.min(axis=0), vertices.max(axis=0)
     ground = np.array([*((lower + upper) / 2.0)[:2], lower[2]])
-    shift = np.asarray(frame["shift_m"] if frame else np.zeros(3), dtype=np.float64)
+    shift = np.asarray(frame.shift_m if frame else np.zeros(3), dtype=np.float64)
     return trimesh.Trimesh(vertices - ground + shift, surface.faces, process=False)

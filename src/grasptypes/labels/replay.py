@@ -24,6 +24,7 @@ from numpy.typing import NDArray
 from grasptypes.errors import InputError, parsing
 from grasptypes.hand import configuration, kinematics, shapes
 from grasptypes.objects.distance_grid import signed_distance
+from grasptypes.settings.grasp_types import ReplaySettings
 
 Array = NDArray[np.float64]
 
@@ -43,18 +44,7 @@ REPLAY_SCHEMA = pa.DataFrameSchema(
 )
 
 
-class ReplaySettings(NamedTuple):
-    """How finely the hand is sampled and when an angle counts as beyond its limit."""
-
-    object_scale: float
-    """Size of the grasped object relative to its mesh, without unit."""
-    surface_spacing_m: float
-    """Distance between neighbouring points on the hand, metres."""
-    limit_tolerance_rad: float
-    """How far an angle may lie beyond the real hand's limit, radians."""
-
-
-class Fit(NamedTuple):
+class HandFit(NamedTuple):
     """How hands lie on an object, one row a pose."""
 
     link_distance_m: Array
@@ -94,7 +84,7 @@ def read_reference_mesh(path: str | Path, scale: float) -> trimesh.Trimesh:
     return mesh
 
 
-def fit_hands(configurations: Array, mesh: trimesh.Trimesh, spacing_m: float) -> Fit:
+def fit_hands(configurations: Array, mesh: trimesh.Trimesh, spacing_m: float) -> HandFit:
     """Put the hand at each of the configurations (n, 17) and measure how it lies on the object.
 
     Fingertips are taken as coupled to their finger bases: the published poses hold no more.
@@ -110,7 +100,7 @@ def fit_hands(configurations: Array, mesh: trimesh.Trimesh, spacing_m: float) ->
     distances = distances.reshape(len(points), -1)
     starts = np.searchsorted(surface.link_index, np.arange(len(kinematics.LINK_NAMES)))
     depths = [shapes.depth_in_hand(np.asarray(mesh.vertices), T) for T in T_object_link]
-    return Fit(np.minimum.reduceat(distances, starts, axis=1), np.array(depths))
+    return HandFit(np.minimum.reduceat(distances, starts, axis=1), np.array(depths))
 
 
 def replay_object(

@@ -10,6 +10,7 @@ import numpy as np
 from manifold3d import Manifold
 
 from grasptypes.objects import solids
+from grasptypes.settings.objects import Resolution
 
 # The axes and the diagonals of the coordinate planes; solids of revolution need the diagonals.
 _NORMALS = tuple(
@@ -33,10 +34,7 @@ _NORMALS = tuple(
 
 def convex_parts(
     parts: Sequence[Manifold],
-    max_parts: int,
-    max_gap_m: float,
-    tolerance_m: float,
-    max_vertices: int,
+    resolution: Resolution,
     cut_fractions: Sequence[float] = (0.3, 0.5, 0.7),
 ) -> list[Manifold]:
     """Cover solids with convex hulls that leave their hollows open.
@@ -47,27 +45,27 @@ def convex_parts(
 
     Args:
         parts: solids in metres; their union is the object.
-        max_parts: maximum number of hulls.
-        max_gap_m: stop when the hulls' empty space, spread over the parts' surface, is at most
-            this thick.
-        tolerance_m: how far vertices may be simplified away, before and after cutting.
-        max_vertices: maximum number of vertices of a hull; larger hulls are reduced to their
-            extreme points in this many directions.
-        cut_fractions: positions of trial planes, as fractions of a piece's extent.
+        resolution: how many hulls, how much empty space, and how coarse they may be.
+        cut_fractions: where planes are tried, as fractions of a piece's extent.
 
     Returns:
         Convex solids, largest first.
     """
-    coarse = [part.simplify(tolerance_m) for part in parts]
+    coarse = [part.simplify(resolution.collision_tolerance_m) for part in parts]
     order = itertools.count()
     heap = [(-_excess(bit), next(order), bit) for part in coarse for bit in part.decompose()]
     heapq.heapify(heap)
-    allowed = max_gap_m * sum(part.surface_area() for part in coarse)
-    while len(heap) < max_parts and -sum(entry[0] for entry in heap) > allowed:
+    allowed = resolution.collision_max_gap_m * sum(part.surface_area() for part in coarse)
+    most = resolution.collision_max_parts
+    while len(heap) < most and -sum(entry[0] for entry in heap) > allowed:
         for bit in _best_cut(heapq.heappop(heap)[2], cut_fractions):
             heapq.heappush(heap, (-_excess(bit), next(order), bit))
     hulls = [
-        _lighten(piece.hull().simplify(tolerance_m).hull(), max_vertices) for _, _, piece in heap
+        _lighten(
+            piece.hull().simplify(resolution.collision_tolerance_m).hull(),
+            resolution.collision_max_vertices,
+        )
+        for _, _, piece in heap
     ]
     return sorted(hulls, key=lambda hull: -hull.volume())
 

@@ -2,10 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 import igl
 import numpy as np
@@ -16,48 +13,30 @@ from numpy.typing import NDArray
 from grasptypes.errors import InputError, parsing
 from grasptypes.objects import solids
 from grasptypes.objects.mesh_limits import (
-    ImportLimits,
     check_counts,
     check_faces,
     check_file,
     check_size,
     check_volume,
 )
-from grasptypes.objects.parts import Material, ObjectModel, Part
+from grasptypes.objects.parts import ImportedModel, Material, ObjectModel, Part
 from grasptypes.objects.units import UNITS_M
+from grasptypes.settings.objects import ImportLimits, OwnObject
 
 FORMATS = (".stl", ".obj", ".ply", ".glb")
 GREY = Material((0.62, 0.62, 0.60, 1.0), roughness=0.6)
 
 
-@dataclass(frozen=True)
-class ImportedModel:
-    """A user's object at the size of its file in metres.
-
-    Attributes:
-        model: one part `body`, or one part per named geometry of a GLB.
-        scale: scale to prepare it at.
-        mass_kg: given mass, None if the density determines it.
-        repairs: descriptions of the repairs.
-    """
-
-    model: ObjectModel
-    scale: float
-    mass_kg: float | None
-    repairs: tuple[str, ...]
-
-
-def import_model(own: Mapping[str, Any], limits: ImportLimits) -> ImportedModel:
-    """Make a model from a block `objects.own.<name>` of the parameters.
+def import_model(own: OwnObject, limits: ImportLimits) -> ImportedModel:
+    """Make a model of a user's mesh.
 
     Args:
-        own: file, unit, and optionally scale, density_kg_m3 or mass_kg, shell_thickness_m.
-        limits: requirements on the mesh.
+        limits: what the mesh must meet.
 
     Raises:
         InputError: the mesh cannot be used; the message says why.
     """
-    path, unit, scale = own["file"], own["unit"], own.get("scale", 1.0)
+    path, unit, scale = own.file, own.unit, own.scale
     meshes = _read(path, UNITS_M[unit], limits)
     check_size(path, meshes, unit, scale, limits)
     repairs: list[str] = []
@@ -71,9 +50,9 @@ def import_model(own: Mapping[str, Any], limits: ImportLimits) -> ImportedModel:
         repairs = []  # earlier repairs have no effect on the rebuilt surface
         parts = [Part("body", _rebuild(path, whole, limits, repairs), GREY)]
     check_volume(path, sum(part.solid.volume() for part in parts), meshes, limits)
-    # If the mass is given, any density works: the inertia is scaled to the mass.
-    model = ObjectModel(tuple(parts), own.get("density_kg_m3", 1e3), own.get("shell_thickness_m"))
-    return ImportedModel(model, scale, own.get("mass_kg"), tuple(dict.fromkeys(repairs)))
+    # With a given mass any density will do: the inertia is scaled to the mass.
+    model = ObjectModel(tuple(parts), own.density_kg_m3 or 1e3, own.shell_thickness_m)
+    return ImportedModel(model, scale, own.mass_kg, tuple(dict.fromkeys(repairs)))
 
 
 def _read(path: str | Path, metres: float, limits: ImportLimits) -> dict[str, trimesh.Trimesh]:

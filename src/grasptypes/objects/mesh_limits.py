@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -11,33 +10,9 @@ import trimesh
 
 from grasptypes.errors import InputError
 from grasptypes.objects.units import UNITS_M
+from grasptypes.settings.objects import ImportLimits
 
 Meshes = Mapping[str, trimesh.Trimesh]
-
-
-@dataclass(frozen=True)
-class ImportLimits:
-    """Requirements on a mesh, and how one with holes is rebuilt.
-
-    Attributes:
-        min_size_m, max_size_m: allowed longest extent after unit and scale.
-        max_box_m3: allowed volume of the bounding box, which the distance grid covers.
-        rebuild_cells: cells along the longest extent when a surface is rebuilt.
-        max_open_share: share of the enclosed space with a winding number far from an integer, above
-            which a mesh counts as an open shell.
-        max_faces: of all geometries together.
-        max_file_mb: larger files are not opened.
-        min_volume_share: of the cube of the longest extent; a mesh with less counts as flat.
-    """
-
-    min_size_m: float
-    max_size_m: float
-    max_box_m3: float
-    rebuild_cells: int
-    max_open_share: float
-    max_faces: int
-    max_file_mb: float
-    min_volume_share: float
 
 
 def check_file(path: Path, limits: ImportLimits) -> None:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 from dataclasses import asdict, dataclass, fields
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -87,8 +86,8 @@ def write_properties(path: str | Path, properties: Properties) -> None:
     write_json(path, asdict(properties))
 
 
-def read_properties(path: str | Path) -> dict[str, Any]:
-    """Read the properties by name; see `Properties`. Raises InputError for any other file."""
+def read_properties(path: str | Path) -> Properties:
+    """Read the properties; raises InputError if it is no such file."""
     try:
         properties = json.loads(Path(path).read_text(encoding="utf-8"))
     except (OSError, ValueError) as error:
@@ -96,7 +95,7 @@ def read_properties(path: str | Path) -> dict[str, Any]:
     missing = {field.name for field in fields(Properties)} - set(properties)
     if missing:
         raise InputError(path, ", ".join(sorted(missing)), "missing from the properties")
-    return properties
+    return Properties(**properties)
 
 
 def write_collision(

@@ -47,3 +47,20 @@ class ObjectModel:
     parts: tuple[Part, ...]
     density_kg_m3: float
     shell_thickness_m: float | None = None
+
+
+@dataclass(frozen=True)
+class ImportedModel:
+    """An object that is to be prepared.
+
+    Attributes:
+        model: one part `body`, or one a named geometry of a GLB, if it is a user's.
+        scale: size to prepare it at.
+        mass_kg: given mass; None if the density decides.
+        repairs: what was mended, in words.
+    """
+
+    model: ObjectModel
+    scale: float
+    mass_kg: float | None = None
+    repairs: tuple[str, ...] = ()

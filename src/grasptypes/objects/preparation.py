@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -14,60 +13,21 @@ from grasptypes.files import write_bytes
 from grasptypes.objects import collision, inertia, object_files, solids
 from grasptypes.objects.distance_grid import DistanceGrid
 from grasptypes.objects.object_files import Properties, Surface
-from grasptypes.objects.parts import Material, ObjectModel, Part
-
-
-@dataclass(frozen=True)
-class Resolution:
-    """How finely an object's files follow its model.
-
-    Attributes:
-        surface_tolerance_m: how far the surface may be simplified before it is meshed evenly.
-        surface_edge_m: longest edge of the surface, about.
-        crease_deg: edges sharper than this are shaded sharp.
-        grid_spacing_m, grid_margin_m: of the distance grid.
-        collision_max_parts, collision_max_gap_m, collision_tolerance_m,
-            collision_max_vertices: see `collision.convex_parts`.
-    """
-
-    surface_tolerance_m: float
-    surface_edge_m: float
-    crease_deg: float
-    grid_spacing_m: float
-    grid_margin_m: float
-    collision_max_parts: int
-    collision_max_gap_m: float
-    collision_tolerance_m: float
-    collision_max_vertices: int
+from grasptypes.objects.object_geometry import ObjectGeometry
+from grasptypes.objects.parts import ImportedModel, Material, ObjectModel, Part
+from grasptypes.settings.objects import Resolution
 
 
 def prepare(
-    name: str,
-    model: ObjectModel,
-    scale: float,
-    resolution: Resolution,
-    folder: str | Path,
-    mass_kg: float | None = None,
-    repairs: tuple[str, ...] = (),
-) -> Properties:
-    """Write an object's five files (see `object_files`) at `scale` times the model's size.
-
-    Args:
-        mass_kg: replaces the mass that follows from the densities; the inertia is scaled with it.
-        repairs: earlier repairs, to be stored with the properties.
-    """
-    folder = Path(folder)
+    name: str, imported: ImportedModel, resolution: Resolution, folder: str | Path
+) -> ObjectGeometry:
+    """Write an object's five files (see `object_files`)."""
+    folder, model, scale = Path(folder), imported.model, imported.scale
     parts = scaled_parts(model, scale)
     surface = part_surface(parts, resolution.surface_tolerance_m, resolution.surface_edge_m)
-    properties = physical_properties(name, model, scale, mass_kg, repairs)
-    hulls = collision.convex_parts(
-        [part.solid for part in parts],
-        resolution.collision_max_parts,
-        resolution.collision_max_gap_m,
-        resolution.collision_tolerance_m,
-        resolution.collision_max_vertices,
-    )
-    # A twentieth of the spacing is lost between nodes anyway.
+    properties = physical_properties(name, model, scale, imported.mass_kg, imported.repairs)
+    hulls = collision.convex_parts([part.solid for part in parts], resolution)
+    # A twentieth of the spacing is lost between the nodes anyway.
     outline = solids.to_mesh(joined(parts).simplify(resolution.grid_spacing_m / 20))
     grid = DistanceGrid.from_mesh(*outline, resolution.grid_spacing_m, resolution.grid_margin_m)
     object_files.write_surface(folder / object_files.SURFACE, surface)
@@ -77,7 +37,7 @@ def prepare(
     )
     grid.save(folder / object_files.DISTANCE_GRID)
     write_bytes(folder / object_files.VISUAL, visual_glb(parts, resolution.crease_deg))
-    return properties
+    return ObjectGeometry(folder, properties)
 
 
 def scaled_parts(model: ObjectModel, scale: float) -> list[Part]:

@@ -86,15 +86,13 @@ def compare_folder(
     rows = []
     for folder in objects:
         properties = object_files.read_properties(folder / object_files.PROPERTIES)
-        path = references / f"{properties['object']}.stl"
+        path = references / f"{properties.object}.stl"
         if not path.is_file():
             continue
         surface = object_files.read_surface(folder / object_files.SURFACE)
-        model = trimesh.Trimesh(
-            surface.vertices / properties["scale"], surface.faces, process=False
-        )
+        model = trimesh.Trimesh(surface.vertices / properties.scale, surface.faces, process=False)
         figures = compare(model, trimesh.load_mesh(path), surface_samples, volume_samples)
-        rows.append({"object": properties["object"], **asdict(figures)})
+        rows.append({"object": properties.object, **asdict(figures)})
     if not rows:
         raise InputError(references, "", "has no <object>.stl for any of the compared objects")
     table = pd.DataFrame(rows)

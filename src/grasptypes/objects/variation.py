@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -13,20 +12,11 @@ from grasptypes.objects.catalogue import OBJECTS
 from grasptypes.objects.parts import ObjectModel
 from grasptypes.objects.variants import variant_of
 from grasptypes.seeds import rng
+from grasptypes.settings.objects import VariationRanges
 
 Array = NDArray[np.float64]
 # Parts whose boxes meet this closely were cut from one solid; designed gaps are far wider.
 JOINT_M = 1e-9
-
-
-@dataclass(frozen=True)
-class Ranges:
-    """Ranges (low, high) to draw variants from; the fields of :class:`Variation`."""
-
-    size: Sequence[float]
-    stretch: Sequence[float]
-    balance: Sequence[float]
-    taper: Sequence[float]
 
 
 @dataclass(frozen=True)
@@ -62,7 +52,7 @@ class Variation:
         return middle_m + self.size * np.asarray(self.stretch) * offset_m
 
 
-def draw_variation(ranges: Ranges, draw: np.random.Generator) -> Variation:
+def draw_variation(ranges: VariationRanges, draw: np.random.Generator) -> Variation:
     """Draw a variation, uniformly from every range."""
     return Variation(
         size=float(draw.uniform(*ranges.size)),
@@ -116,13 +106,12 @@ def taper_axis(boxes_m: Array) -> int:
     return int(np.argmax(joints)) if joints.any() else int(np.argmax(extents_m))
 
 
-def build_variant(name: str, ranges: Mapping[str, Sequence[float]], seed: int) -> ObjectModel:
-    """Build a variant of a catalogue object; name and seed determine it.
+def build_variant(name: str, ranges: VariationRanges, seed: int) -> ObjectModel:
+    """Build a variant of a catalogue object, the same one for the same name and seed.
 
     Args:
-        name: name of the variant, see :mod:`grasptypes.objects.variants`.
-        ranges: the fields of :class:`Ranges`.
+        name: of the variant, see :mod:`grasptypes.objects.variants`.
     """
     base, number = variant_of(name)
     draw = rng("variant", base, number, seed)
-    return vary(OBJECTS[base](), draw_variation(Ranges(**ranges), draw))
+    return vary(OBJECTS[base](), draw_variation(ranges, draw))

@@ -16,9 +16,10 @@ import numpy as np
 import pandas as pd
 import pandera.pandas as pa
 
+from grasptypes.contact_maps.contact_map import MapTask
 from grasptypes.labels.grasp_type import GRASP_TYPES
 from grasptypes.planning.plan_contacts import grips_of, plan_contacts
-from grasptypes.planning.planner import Workshop, plan
+from grasptypes.planning.planner import PlanningContext, plan_sessions
 
 PREDICTED, LABELLED, ANY = "predicted", "labelled", "any"
 CHOICES = (PREDICTED, LABELLED, ANY)
@@ -47,12 +48,10 @@ PLANNING_SCHEMA = pa.DataFrameSchema(
 class Case(NamedTuple):
     """One plan to be made."""
 
-    workshop: Workshop
+    context: PlanningContext
     choice: str
     types: Mapping[str, Sequence[str]]
     """Grasp types by who chooses them, of `CHOICES` without `ANY`."""
-    contact_params: Mapping[str, Any]
-    """The `contact_maps` section of params.yaml, with the sessions to be planned."""
 
 
 def compare(
@@ -68,23 +67,23 @@ def compare(
 
 def outcome(case: Case) -> dict[str, Any]:
     """Make one plan and count."""
-    shop = case.workshop
+    context, params = case.context, case.context.params
     types = GRASP_TYPES[:-1] if case.choice == ANY else case.types[case.choice]
-    grips = grips_of(types)
-    contacts = plan_contacts(
-        shop.folder, None, grips, shop.name, shop.seed, case.contact_params, shop.name[0]
-    )
-    planned = plan(shop, contacts, types, jobs=1, tell=lambda line: None)
+    settings = params.contact_maps.changed(sessions=params.plan.comparison.sessions)
+    name = context.word, context.task
+    drawn = MapTask.of_object(context.geometry, name, params.seed, settings)
+    contacts = plan_contacts(drawn, None, grips_of(types), context.word)
+    attempts, grasps = plan_sessions(context, contacts, types)
     return {
-        "object": shop.name[0],
-        "task": shop.name[1],
+        "object": context.geometry.name,
+        "task": context.task,
         "choice": case.choice,
         "types": "; ".join(types),
-        "sessions": len(planned.grasps),
-        "tests": tests(planned.attempts),
-        **_counts(planned.attempts, "", GRASP_TYPES[:-1]),
-        **_counts(planned.attempts, "_predicted", case.types[PREDICTED]),
-        **_counts(planned.attempts, "_labelled", case.types[LABELLED]),
+        "sessions": len(grasps),
+        "tests": tests(attempts),
+        **_counts(attempts, "", GRASP_TYPES[:-1]),
+        **_counts(attempts, "_predicted", case.types[PREDICTED]),
+        **_counts(attempts, "_labelled", case.types[LABELLED]),
     }
 
 

@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 import shutil
-from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -14,17 +12,19 @@ import pandera.pandas as pa
 from grasptypes.exchange import dexgraspbench, graspit_world, multigrippergrasp
 from grasptypes.exchange.published_csv import format_configuration
 from grasptypes.exchange.records import PosedHands
-from grasptypes.files import write_bytes
+from grasptypes.files import write_bytes, write_json
 from grasptypes.hand import configuration
 from grasptypes.labels.dataset import DATASET_SCHEMA, VALID, dataset_columns
 from grasptypes.labels.grasp_type import GRASP_TYPES
 from grasptypes.objects.object_files import COLLISION, PROPERTIES, VISUAL
-from grasptypes.planning.planner import Planned
-from grasptypes.renders.contact_pictures import studio_of
+from grasptypes.planning.plan_summary import summarise
+from grasptypes.planning.planner import Plan
+from grasptypes.renders.contact_pictures import plain
 from grasptypes.renders.gallery import grasp_picture, pose_of
 from grasptypes.renders.renderer import Camera, png_bytes
 from grasptypes.renders.scene import load_parts
 from grasptypes.reports.sheets import Group, Tile, sheet
+from grasptypes.settings.params import Params
 from grasptypes.tables import write_table
 
 PICTURE = "grasps.png"
@@ -49,28 +49,22 @@ ATTEMPT_TABLE_SCHEMA = pa.DataFrameSchema(
 )
 
 
-def write_plan(
-    planned: Planned, folder: Path, prepared: Path, shown: int, params: Mapping[str, Any]
-) -> None:
-    """Write everything there is to a folder.
-
-    Args:
-        prepared: folder of the object's files, of which those that show and collide are copied.
-        shown: grasps on the picture, at most.
-        params: the whole of params.yaml.
-    """
-    valid = planned.grasps[planned.grasps.valid]
-    pictured = planned.grasps.valid & (np.arange(len(planned.grasps)) < shown)
-    table = planned.grasps.assign(image=np.where(pictured, PICTURE, ""))
+def write_plan(plan: Plan, folder: Path, params: Params) -> None:
+    """Write everything there is to a new folder: tables, `plan.json`, formats and a picture."""
+    shown = params.plan.shown
+    valid = plan.grasps[plan.grasps.valid]
+    pictured = plan.grasps.valid & (np.arange(len(plan.grasps)) < shown)
+    table = plan.grasps.assign(image=np.where(pictured, PICTURE, ""))
     write_table(dataset_columns(table), folder / "grasps.csv", DATASET_SCHEMA)
-    write_table(_attempt_table(planned.attempts), folder / "attempts.csv", ATTEMPT_TABLE_SCHEMA)
+    write_table(_attempt_table(plan.attempts), folder / "attempts.csv", ATTEMPT_TABLE_SCHEMA)
     for name in (VISUAL, COLLISION, PROPERTIES):
         (folder / "object").mkdir(exist_ok=True)
-        shutil.copyfile(prepared / name, folder / "object" / name)
+        shutil.copyfile(plan.geometry.folder / name, folder / "object" / name)
     if len(valid):
         write_formats(posed(valid), folder)
-        picture = draw_best(valid.head(shown), prepared / VISUAL, params)
+        picture = draw_best(valid.head(shown), plan.geometry.visual, params)
         write_bytes(folder / PICTURE, picture)
+    write_json(folder / "plan.json", summarise(plan))
 
 
 def posed(grasps: pd.DataFrame) -> PosedHands:
@@ -93,18 +87,18 @@ def write_formats(hands: PosedHands, folder: Path) -> None:
         )
 
 
-def draw_best(grasps: pd.DataFrame, visual: Path, params: Mapping[str, Any]) -> bytes:
+def draw_best(grasps: pd.DataFrame, visual: Path, params: Params) -> bytes:
     """A PNG of the grasps, each under its rank, type and energy."""
-    settings = params["gallery"]
-    studio = studio_of(params["renders"], settings["size_px"])
+    settings = params.gallery
+    studio = plain(params.renders, settings.size_px)
     parts, tiles = load_parts(visual), []
     with Camera(studio) as camera:
         for _, row in grasps.iterrows():
-            picture = grasp_picture(parts, *pose_of(row), camera, settings["elevation_rad"])
+            picture = grasp_picture(parts, *pose_of(row), camera, settings.elevation_rad)
             caption = f"{row['rank'] + 1}: {row.grasp_type}, energy {row.energy:.2f}"
             tiles.append(Tile(picture, caption))
-    columns = min(len(tiles), settings["columns"] // 2)
-    picture = sheet([Group("", tiles)], columns, settings["tile_px"])
+    columns = min(len(tiles), settings.columns // 2)
+    picture = sheet([Group("", tiles)], columns, settings.tile_px)
     return png_bytes(picture, studio.png_compression)
 
 

@@ -2,41 +2,27 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from typing import Any
 
 from grasptypes.labels.dataset import VALID
-from grasptypes.objects.object_files import Properties
-from grasptypes.planning.planner import Planned
+from grasptypes.planning.planner import Plan
 
 
-def summarise(
-    planned: Planned,
-    types: Sequence[str],
-    chosen_by: Mapping[str, Any] | None,
-    contact_map: str | None,
-    properties: Properties,
-) -> dict[str, Any]:
-    """Everything there is to say.
-
-    Args:
-        types: the wanted grasp types.
-        chosen_by: the predictor that chose them, with its answer; None if they were given.
-        contact_map: name of the measured map, if there was one.
-        properties: of the object.
-    """
-    grasps = planned.grasps
+def summarise(plan: Plan) -> dict[str, Any]:
+    """Everything there is to say."""
+    grasps, types, properties = plan.grasps, plan.request.types, plan.geometry.properties
     wanted = grasps.grasp_type.isin(types)
     return {
         "object": properties.object,
-        "task": str(grasps.task.iloc[0]),
+        "task": plan.task,
         "mass_kg": properties.mass_kg,
         "repairs": properties.repairs,
         "wanted_types": list(types),
-        "chosen_by": chosen_by,
-        "contact_map": contact_map,
+        "chosen_by": plan.request.chosen_by,
+        "contact_map": plan.contact_map,
         "sessions": len(grasps),
-        "tries": len(planned.attempts),
+        "tries": len(plan.attempts),
         "valid": int(grasps.valid.sum()),
         "valid_of_wanted_type": int((grasps.valid & wanted).sum()),
         "grasps": [

@@ -3,92 +3,220 @@
 from __future__ import annotations
 
 import signal
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass, replace
 from functools import partial
 from multiprocessing import active_children, get_context
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 import pandas as pd
 
-from grasptypes.contact_maps.contact_map import ContactMap
-from grasptypes.labels.contacts import ContactSettings
+from grasptypes.contact_maps.contact_map import ContactMap, MapTask
+from grasptypes.errors import InputError
 from grasptypes.labels.dataset import label_grasps
-from grasptypes.labels.grasp_type import Thresholds
-from grasptypes.objects.distance_grid import DistanceGrid
-from grasptypes.objects.object_files import COLLISION, DISTANCE_GRID, PROPERTIES
-from grasptypes.planning.plan_contacts import PlanContacts
+from grasptypes.labels.grasp import Grasp, grasps_of
+from grasptypes.labels.grasp_type import GRASP_TYPES
+from grasptypes.objects.object_geometry import ObjectGeometry
+from grasptypes.planning.plan_contacts import MeasuredMap, PlanContacts, grips_of, plan_contacts
+from grasptypes.renders.mesh_views import MESH_WORD
 from grasptypes.seeds import seed
-from grasptypes.synthesis.holding import PhysicsSettings, read_body
-from grasptypes.synthesis.physics import physics
-from grasptypes.synthesis.search import read_thing
-from grasptypes.synthesis.settings import sampled_hand, search_settings
-from grasptypes.synthesis.trials import Problem, ValiditySettings, synthesize
+from grasptypes.settings.params import Params, read_params
+from grasptypes.synthesis.trials import SynthesisTask, synthesize
+
+if TYPE_CHECKING:
+    from grasptypes.predictors.prediction import Predictor
+
+URDF = "assets/barrett_hand/barrett_hand.urdf"
 
 
 @dataclass(frozen=True)
-class Workshop:
+class PlanningContext:
     """What every session of a plan shares.
 
     Attributes:
-        folder: of the prepared object's files.
+        word: stands for the object in the keys of all draws.
         urdf: the hand's.
-        name: object and task.
-        seed: part of the key of every draw.
-        params: the whole of params.yaml.
-        word: stands for the object in the keys of all draws; None: its name does.
     """
 
-    folder: Path
+    geometry: ObjectGeometry
+    task: str
+    word: str
     urdf: Path
-    name: tuple[str, str]
-    seed: int
-    params: Mapping[str, Any]
-    word: str | None = None
+    params: Params
+
+
+class GraspTypeRequest(NamedTuple):
+    """The wanted grasp types, spelled as in `GRASP_TYPES`, and who chose them."""
+
+    types: tuple[str, ...]
+    chosen_by: dict[str, Any] | None = None
+    """The predictor and its answer; None if they were given."""
+
+
+@dataclass(frozen=True)
+class Plan:
+    """What came out for one object and task.
+
+    Attributes:
+        contact_map: name of the measured map that was used, if any.
+        attempts: one row a hand that was tried, labelled: the columns of `grasps.ATTEMPT_SCHEMA`,
+            those of `dataset.label_grasps`, `grip` and `tries`.
+        grasps: the chosen ones of them, one a session, best first.
+    """
+
+    geometry: ObjectGeometry
+    task: str
+    request: GraspTypeRequest
+    contact_map: str | None
+    attempts: pd.DataFrame
+    grasps: pd.DataFrame
 
     @property
-    def drawn(self) -> tuple[str, str]:
-        """Object and task in the keys of all draws."""
-        return self.word or self.name[0], self.name[1]
+    def best(self) -> list[Grasp]:
+        """The grasps as objects, best first."""
+        return grasps_of(self.grasps, self.geometry)
 
 
-class Planned(NamedTuple):
-    """What came out; both tables are labelled, see `dataset.label_grasps`."""
+class Planner:
+    """Plans grasps of any object.
 
-    attempts: pd.DataFrame
-    """One row a hand that was tried: the columns of `grasps.ATTEMPT_SCHEMA` and those that
-    `_search` adds."""
-    grasps: pd.DataFrame
-    """The chosen ones of them, one a session, best first."""
+    Args:
+        folder: a checkout, whose parameters, hand and models are used.
+        jobs: processes at work; the result is the same for any number.
+        tell: takes a line on what is going on.
+
+    Raises:
+        InputError: the folder has no parameters, or wrong ones.
+    """
+
+    def __init__(
+        self,
+        folder: str | Path = ".",
+        *,
+        jobs: int = 1,
+        tell: Callable[[str], None] = lambda line: None,
+    ) -> None:
+        self.folder = Path(folder)
+        self.params = read_params(self.folder / "params.yaml")
+        self.jobs = jobs
+        self.tell = tell
+        self._predictor: Predictor | None = None
+
+    def plan(
+        self,
+        object: ObjectGeometry,
+        task: str,
+        types: Sequence[str] = (),
+        *,
+        contact_map: MeasuredMap | None = None,
+        sessions: int | None = None,
+    ) -> Plan:
+        """Grasps of an object for a task, ranked.
+
+        Args:
+            object: as `load_object` returns it.
+            types: wanted grasp types; grasps of these rank before all others. Without any, the
+                predictor of the folder chooses.
+            contact_map: where to touch the object; without one, anywhere.
+            sessions: ways of holding to be searched, one grasp each.
+
+        Raises:
+            InputError: an unknown task or type, a mass that the hand cannot lift, a contact map
+                that cannot be used, or an object that no hand can hold.
+        """
+        self.check_task(task)
+        self.check_mass(object.properties.mass_kg, object.source or object.name)
+        request = GraspTypeRequest(tuple(known_type(name) for name in types))
+        if not request.types:
+            request = self._predicted(object, task)
+        settings = self.params.contact_maps.changed(sessions=sessions or self.params.plan.sessions)
+        name, seed_number = (MESH_WORD, task), self.params.seed
+        drawn = MapTask.of_object(object, name, seed_number, settings)
+        source = object.source or object.name
+        contacts = plan_contacts(drawn, contact_map, grips_of(request.types), source)
+        if left_out := settings.sessions - len(contacts.numbers):
+            self.tell(
+                f"left out {left_out} of {settings.sessions} ways of holding: "
+                "no place has two sides for them"
+            )
+        self.tell(f"searching for {', '.join(request.types)} of {object.name} for {task}")
+        context = PlanningContext(object, task, MESH_WORD, self.folder / URDF, self.params)
+        attempts, grasps = plan_sessions(context, contacts, request.types, self.jobs, self.tell)
+        used = contact_map.path.name if contact_map else None
+        return Plan(object, task, request, used, attempts, grasps)
+
+    def check_task(self, task: str) -> None:
+        """Raise InputError for a task that the parameters do not have."""
+        if task not in self.params.tasks:
+            allowed = ", ".join(self.params.tasks)
+            raise InputError("--task", task, f"unknown; allowed: {allowed}")
+
+    def check_mass(self, mass_kg: float, source: str) -> None:
+        """Raise InputError for what the hand cannot lift, and for what nothing weighs."""
+        low, high = self.params.plan.min_mass_kg, self.params.plan.max_mass_kg
+        if not low <= mass_kg <= high:
+            message = f"is {mass_kg:.3g} kg, allowed are {low:g} to {high:g} kg (--mass-kg)"
+            raise InputError(source, "mass", message)
+
+    def load_predictor(self) -> Predictor:
+        """The predictor that chooses types; raises InputError if it is not trained."""
+        from grasptypes.predictors.prediction import Predictor
+
+        if self._predictor is None:
+            self._predictor = Predictor.load(self.folder)
+        return self._predictor
+
+    def _predicted(self, geometry: ObjectGeometry, task: str) -> GraspTypeRequest:
+        """The types that the predictor chooses for the object; the likeliest if none is."""
+        from grasptypes.predictors.prediction import wanted_types
+
+        predictor = self.load_predictor()
+        views = self.params.predict.views
+        answer = predictor.predict(geometry, task, name=f"{geometry.name}, mean of {views} views")
+        types = wanted_types(answer, predictor.card.types)
+        return GraspTypeRequest(tuple(types), predictor.describe([answer], task))
 
 
-def plan(
-    workshop: Workshop,
+def known_type(text: str) -> str:
+    """A grasp type as tables spell it, from any spelling with spaces or underscores.
+
+    Raises:
+        InputError: there is no such type.
+    """
+    kind, allowed = text.replace("_", " ").title(), GRASP_TYPES[:-1]
+    if kind not in allowed:
+        raise InputError("--type", text, f"unknown; allowed: {', '.join(allowed)}")
+    return kind
+
+
+def plan_sessions(
+    context: PlanningContext,
     contacts: PlanContacts,
     types: Sequence[str],
-    jobs: int,
-    tell: Callable[[str], None],
-) -> Planned:
-    """A grasp for each session of the contacts, ranked; the same for any number of jobs.
+    jobs: int = 1,
+    tell: Callable[[str], None] = lambda line: None,
+) -> tuple[pd.DataFrame, pd.DataFrame]:
+    """Attempts and ranked grasps of the contacts' sessions, see `Plan`.
 
     Args:
         types: wanted grasp types; grasps of these rank before all others.
         jobs: processes at work.
         tell: takes a line on every session.
     """
-    work, last = partial(_search, workshop, contacts), contacts.numbers[-1]
+    work, last = partial(_search, context, contacts), contacts.numbers[-1]
     found = []
     for attempts in _each(work, len(contacts.numbers), jobs):
         found.append(attempts)
         number, grip = attempts.session.iloc[0], attempts.grip.iloc[0]
         outcome = "holds" if attempts.valid.any() else attempts.reason.iloc[0]
         tell(f"session {number} of {last} ({grip}): {outcome}")
-    labelled = _labelled(workshop, pd.concat(found, ignore_index=True))
-    labelled = choose(labelled, types)
-    return Planned(labelled, ranked(labelled[labelled.chosen], types))
+    table = pd.concat(found, ignore_index=True)
+    grid, settings = context.geometry.distance_grid, context.params.grasp_types
+    labelled = choose(label_grasps(table, grid, settings.contacts, settings.thresholds), types)
+    return labelled, ranked(labelled[labelled.chosen], types)
 
 
 def choose(labelled: pd.DataFrame, types: Sequence[str]) -> pd.DataFrame:
@@ -143,25 +271,16 @@ def _each(work: Callable[[int], pd.DataFrame], count: int, jobs: int) -> Iterato
             raise
 
 
-def _search(workshop: Workshop, contacts: PlanContacts, index: int) -> pd.DataFrame:
+def _search(context: PlanningContext, contacts: PlanContacts, index: int) -> pd.DataFrame:
     """Attempts of one session, whatever sessions there are beside it, with its grip and tries."""
-    folder, params, (name, task) = workshop.folder, workshop.params, workshop.drawn
-    contact_map, number = contacts.contact_map, contacts.numbers[index]
-    thing = read_thing(folder / DISTANCE_GRID, folder / PROPERTIES, contact_map)
-    session_seed = seed("plan", name, task, number, workshop.seed)
-    problem = Problem(name, task, thing, _one(contact_map, index), session_seed)
-    body = read_body(folder / COLLISION, folder / PROPERTIES)
-    synthesis, test = params["synthesis"], PhysicsSettings(**params["physics"]["test"])
-    with physics(workshop.urdf, body, test) as world:
-        _, attempts = synthesize(
-            problem,
-            sampled_hand(synthesis),
-            world,
-            search_settings(synthesis),
-            ValiditySettings(**params["physics"]["validity"]),
-        )
+    contact_map, number, params = contacts.contact_map, contacts.numbers[index], context.params
+    session_seed = seed("plan", context.word, context.task, number, params.seed)
+    task = SynthesisTask(
+        context.word, context.task, context.geometry, _one(contact_map, index), session_seed
+    )
+    _, attempts = synthesize(task, context.urdf, params.synthesis, params.physics)
     added = {"grip": str(contact_map.grip[index]), "tries": len(attempts)}
-    return attempts.assign(object=workshop.name[0], session=number, **added)
+    return attempts.assign(object=context.geometry.name, session=number, **added)
 
 
 def _one(contact_map: ContactMap, index: int) -> ContactMap:
@@ -170,10 +289,3 @@ def _one(contact_map: ContactMap, index: int) -> ContactMap:
     names = (*of_session, "hand_length_m")
     row = slice(index, index + 1)
     return replace(contact_map, **{name: getattr(contact_map, name)[row] for name in names})
-
-
-def _labelled(workshop: Workshop, table: pd.DataFrame) -> pd.DataFrame:
-    settings = workshop.params["grasp_types"]
-    grid = DistanceGrid.load(workshop.folder / DISTANCE_GRID)
-    contacts = ContactSettings(**settings["contacts"])
-    return label_grasps(table, grid, contacts, Thresholds(**settings["thresholds"]))

@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 import pandas as pd
+from scipy.special import expit, softmax
 
 from grasptypes.labels.samples import TYPES
 from grasptypes.predictors.leaving_out import members_by_object
-from grasptypes.predictors.metrics import softmax
-from grasptypes.predictors.prediction import Answer, sigmoid, wanted_types
-from grasptypes.predictors.problem import Problem
+from grasptypes.predictors.prediction import Answer, wanted_types
+from grasptypes.predictors.problem import LearningProblem
 from grasptypes.predictors.protocol import try_splits
 
 
-def unseen_types(problem: Problem, seeds: int, seed: int) -> dict[tuple[str, str], list[str]]:
+def unseen_types(
+    problem: LearningProblem, seeds: int, seed: int
+) -> dict[tuple[str, str], list[str]]:
     """Chosen types of every object and task, from predictors trained on all other objects.
 
     Variants of an object are left out with it, and have no answer of their own.
@@ -26,7 +28,7 @@ def unseen_types(problem: Problem, seeds: int, seed: int) -> dict[tuple[str, str
     examples = problem.examples
     members = members_by_object(examples.index["object"], seeds)
     key = ("unseen", problem.model, seed)
-    predictions = try_splits(examples, members, problem.recipe, key, problem.backbone).predictions
+    predictions = try_splits(examples, members, problem.settings, key, problem.backbone).predictions
     return {
         (str(name), str(task)): _types(rows)
         for (name, task), rows in predictions.groupby(["object", "task"])
@@ -35,5 +37,5 @@ def unseen_types(problem: Problem, seeds: int, seed: int) -> dict[tuple[str, str
 
 def _types(rows: pd.DataFrame) -> list[str]:
     logits = rows[[f"logit_{kind}" for kind in TYPES]].to_numpy()
-    answer = Answer("", softmax(logits).mean(axis=0), sigmoid(logits).mean(axis=0))
+    answer = Answer("", softmax(logits, axis=-1).mean(axis=0), expit(logits).mean(axis=0))
     return wanted_types(answer, TYPES)

@@ -13,7 +13,7 @@ from grasptypes.predictors.weights import Weights
 
 
 @dataclass(frozen=True)
-class Kind:
+class BackboneSpec:
     """What is known of a network before it is built.
 
     Attributes:
@@ -35,10 +35,10 @@ class Kind:
 
 # ImageNet statistics of torchvision's weights; EfficientNet-Lite was trained on (x - 127) / 128.
 KINDS = {
-    "mobilenet_v2": Kind(
+    "mobilenet_v2": BackboneSpec(
         (0.485, 0.456, 0.406), (0.229, 0.224, 0.225), {1: 16, 3: 24, 6: 32, 13: 96, 18: 1280}
     ),
-    "efficientnet_lite0": Kind(
+    "efficientnet_lite0": BackboneSpec(
         (127 / 255,) * 3, (128 / 255,) * 3, {1: 16, 3: 24, 5: 40, 11: 112, 17: 1280}
     ),
 }
@@ -61,7 +61,7 @@ class Backbone(nn.Module):
     mean: Tensor
     deviation: Tensor
 
-    def __init__(self, blocks: list[nn.Module], kind: Kind, input_px: int) -> None:
+    def __init__(self, blocks: list[nn.Module], kind: BackboneSpec, input_px: int) -> None:
         super().__init__()
         self.blocks = nn.ModuleList(blocks)
         self.kind = kind

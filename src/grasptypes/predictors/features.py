@@ -17,13 +17,13 @@ from grasptypes.predictors.backbone import Backbone
 NO_TASK = "none"  # the encoding without a task
 
 
-def encodings(tasks: Mapping[str, Mapping[str, int]]) -> dict[str, int]:
+def encodings(tasks: Mapping[str, int]) -> dict[str, int]:
     """What is added to each RGB value: 0 for ``none``, and each task's own shift.
 
     Args:
-        tasks: the ``tasks`` section of params.yaml.
+        tasks: the colour shift of each, in the order of the task vector.
     """
-    return {NO_TASK: 0} | {task: int(entry["colour_shift"]) for task, entry in tasks.items()}
+    return {NO_TASK: 0} | dict(tasks)
 
 
 def shift_colours(pictures: np.ndarray, shift: int) -> np.ndarray:

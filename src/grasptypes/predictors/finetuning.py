@@ -5,43 +5,24 @@ from __future__ import annotations
 import copy
 import logging
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
 import torch
 
 from grasptypes.predictors.backbone import Backbone, thaw
 from grasptypes.predictors.examples import Examples
-from grasptypes.predictors.predictor import Architecture, Heads, loss
-from grasptypes.predictors.training import Member, Schedule
+from grasptypes.predictors.predictor import Architecture, BatchedMLP, loss
+from grasptypes.predictors.training import Member
 from grasptypes.seeds import rng
+from grasptypes.settings.predictors import PredictorSettings
 
 LOGGER = logging.getLogger("grasptypes")
-
-
-@dataclass(frozen=True)
-class FineTuning:
-    """What of the backbone is trained; the fields are keys of ``predictors`` in params.yaml.
-
-    Attributes:
-        finetune: ``last_blocks`` or ``all``.
-        last_blocks: how many blocks from the end ``last_blocks`` means.
-        learning_rate: of the backbone's blocks; the head has its schedule's.
-        epochs: passes over the training examples.
-        batch: pictures a step.
-    """
-
-    finetune: str
-    last_blocks: int
-    learning_rate: float
-    epochs: int
-    batch: int
 
 
 class Network(torch.nn.Module):
     """A backbone and one head: pictures and task to logits."""
 
-    def __init__(self, backbone: Backbone, head: Heads) -> None:
+    def __init__(self, backbone: Backbone, head: BatchedMLP) -> None:
         super().__init__()
         self.backbone = backbone
         self.head = head
@@ -56,8 +37,7 @@ def fine_tune(
     backbone: Backbone,
     examples: Examples,
     member: Member,
-    schedule: Schedule,
-    tuning: FineTuning,
+    settings: PredictorSettings,
     key: tuple[str | int, ...],
 ) -> tuple[Network, np.ndarray]:
     """Train a copy of the backbone with a head on one split.
@@ -73,31 +53,33 @@ def fine_tune(
     """
     names = (*key, member.group, member.seed)
     tasks = 0 if examples.task_vectors is None else examples.task_vectors.shape[1]
-    sizes = Architecture(backbone.kind.features, tasks, schedule.hidden, examples.labels.shape[1])
-    network = Network(copy.deepcopy(backbone), Heads(sizes, [names], schedule.dropout)).eval()
-    thawed = thaw(network.backbone, tuning.finetune, tuning.last_blocks)
+    sizes = Architecture(backbone.kind.features, tasks, settings.hidden, examples.labels.shape[1])
+    network = Network(copy.deepcopy(backbone), BatchedMLP(sizes, [names], settings.dropout)).eval()
+    thawed = thaw(network.backbone, settings.finetune, settings.finetuning.last_blocks)
     optimiser = torch.optim.AdamW(
         [
-            {"params": network.head.parameters(), "lr": schedule.learning_rate},
-            {"params": thawed, "lr": tuning.learning_rate},
+            {"params": network.head.parameters(), "lr": settings.learning_rate},
+            {"params": thawed, "lr": settings.finetuning.learning_rate},
         ],
-        weight_decay=schedule.weight_decay,
+        weight_decay=settings.weight_decay,
     )
     order = rng("order", *names)
-    losses = np.zeros(tuning.epochs)
-    for epoch in range(tuning.epochs):
+    losses = np.zeros(settings.finetuning.epochs)
+    for epoch in range(settings.finetuning.epochs):
         network.head.train()
         shuffled = order.permutation(member.train)
-        batches = np.array_split(shuffled, max(1, len(shuffled) // tuning.batch))
+        batches = np.array_split(shuffled, max(1, len(shuffled) // settings.finetuning.batch))
         for rows in batches:
             logits = network(*_inputs(examples, rows))
             targets = (torch.from_numpy(t[rows]) for t in (examples.labels, examples.probabilities))
-            value = loss(logits, *targets, schedule.probability_weight).mean()
+            value = loss(logits, *targets, settings.probability_weight).mean()
             optimiser.zero_grad()
             value.backward()
             optimiser.step()
             losses[epoch] += value.item() / len(batches)
-        LOGGER.info("epoch %d of %d: loss %.4f", epoch + 1, tuning.epochs, losses[epoch])
+        LOGGER.info(
+            "epoch %d of %d: loss %.4f", epoch + 1, settings.finetuning.epochs, losses[epoch]
+        )
     return network.eval(), losses
 
 

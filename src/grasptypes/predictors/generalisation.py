@@ -14,23 +14,11 @@ from grasptypes.predictors.ceilings import constant_of_others
 from grasptypes.predictors.examples import Examples, assemble
 from grasptypes.predictors.leaving_out import members_by_object
 from grasptypes.predictors.predictor import VARIANTS
-from grasptypes.predictors.protocol import Recipe, try_splits
+from grasptypes.predictors.protocol import try_splits
 from grasptypes.predictors.scoring import METRIC_SCHEMA, SHORT
+from grasptypes.settings.predictors import PredictorSettings, VariantTrial
 
 Inputs = dict[str, dict[str, np.ndarray]]
-
-
-@dataclass(frozen=True)
-class Trial:
-    """How much is trained on.
-
-    Attributes:
-        shapes: of every object, itself among them.
-        views: pictures of every shape.
-    """
-
-    shapes: int
-    views: int
 
 
 TRIAL_SCHEMA = pa.DataFrameSchema(
@@ -68,7 +56,7 @@ GENERALISATION_SCHEMA = pa.DataFrameSchema(
 
 
 @dataclass(frozen=True)
-class Known:
+class VariantInputs:
     """What trials choose from.
 
     Attributes:
@@ -85,25 +73,30 @@ class Known:
 
 
 def try_trial(
-    known: Known, model: str, trial: Trial, recipe: Recipe, seeds: int, seed: int
+    known: VariantInputs,
+    model: str,
+    trial: VariantTrial,
+    settings: PredictorSettings,
+    draws: tuple[int, int],
 ) -> pd.DataFrame:
     """Leave out every object in turn, test on all its own pictures.
 
     Args:
         model: name of the model.
-        seeds, seed: repetitions, and the workflow's number.
+        draws: repetitions, and the workflow's seed.
 
     Returns:
         one row an object and repetition, as :func:`grasptypes.predictors.scoring.score` gives them.
     """
+    seeds, seed = draws
     examples = trial_examples(known, model, trial)
     index = examples.index
     members = members_by_object(index["object"], seeds, index["view"].to_numpy() < trial.views)
     key = ("shapes", model, trial.shapes, trial.views, seed)
-    return try_splits(examples, members, recipe, key).metrics
+    return try_splits(examples, members, settings, key).metrics
 
 
-def trial_examples(known: Known, model: str, trial: Trial) -> Examples:
+def trial_examples(known: VariantInputs, model: str, trial: VariantTrial) -> Examples:
     """All pictures of the objects and the first ones of their first variants."""
     inputs = dict(known.objects)
     for name in known.objects:

@@ -68,13 +68,13 @@ def recorded_weights(record: BackboneRecord) -> Weights:
 
 
 def read_inputs(
-    paths: Iterable[str | Path], tasks: Mapping[str, Mapping[str, int]]
+    paths: Iterable[str | Path], tasks: Mapping[str, int]
 ) -> dict[str, dict[str, np.ndarray]]:
     """Object to encoding to one input a view, from files named after their objects.
 
     Args:
         paths: features (.npz), or archives of pictures (.zip) that are encoded here.
-        tasks: the ``tasks`` section of params.yaml.
+        tasks: the colour shift of each, in the order of the task vector.
 
     Returns:
         arrays (V, F) float32 or (V, H, W, 3) uint8.

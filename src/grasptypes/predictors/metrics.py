@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import numpy as np
 from numpy.typing import ArrayLike
+from scipy.special import softmax
 
 METRICS = ("angular_similarity", "multilabel_accuracy", "multilabel_precision")
 SIGMOID_THRESHOLD = 0.5  # paper, section IV-B
@@ -51,12 +52,6 @@ def multilabel_precision(predicted: ArrayLike, target: ArrayLike) -> np.ndarray:
     return np.where(count > 0, both / np.maximum(count, 1), np.where(either > 0, 0.0, 1.0))
 
 
-def softmax(logits: ArrayLike) -> np.ndarray:
-    """(..., K) logits to (..., K) probabilities that sum to one."""
-    shifted = np.exp(logits - np.max(logits, axis=-1, keepdims=True))
-    return shifted / shifted.sum(axis=-1, keepdims=True)
-
-
 def chosen(logits: ArrayLike) -> np.ndarray:
     """(..., K) logits to the (..., K) types whose sigmoid exceeds 0.5."""
     limit = np.log(SIGMOID_THRESHOLD / (1 - SIGMOID_THRESHOLD))
@@ -73,7 +68,9 @@ def evaluate(logits: ArrayLike, labels: ArrayLike, probabilities: ArrayLike) -> 
     """
     types = chosen(logits)
     return {
-        "angular_similarity": float(angular_similarity(softmax(logits), probabilities).mean()),
+        "angular_similarity": float(
+            angular_similarity(softmax(logits, axis=-1), probabilities).mean()
+        ),
         "multilabel_accuracy": float(multilabel_accuracy(types, labels).mean()),
         "multilabel_precision": float(multilabel_precision(types, labels).mean()),
     }

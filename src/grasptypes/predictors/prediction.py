@@ -7,12 +7,23 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
+from scipy.special import expit, softmax
 
 from grasptypes.errors import InputError
-from grasptypes.predictors.metrics import SIGMOID_THRESHOLD, softmax
+from grasptypes.objects.object_geometry import ObjectGeometry
+from grasptypes.predictors.metrics import SIGMOID_THRESHOLD
 from grasptypes.predictors.predictor import VARIANTS
-from grasptypes.predictors.predictor_files import Card, Predictor, load_predictor, read_card
+from grasptypes.predictors.predictor_files import (
+    ModelCard,
+    PredictorNetwork,
+    load_predictor,
+    read_card,
+)
 from grasptypes.predictors.weights import find_weights
+from grasptypes.renders.mesh_views import mesh_views, views
+from grasptypes.renders.photos import read_photo
+from grasptypes.settings.objects import OwnObject
+from grasptypes.settings.params import Params, read_params
 
 # What a model may have been trained on; its folder below models/.
 LABELS = ("simulated", "published")
@@ -58,18 +69,82 @@ def predictor_paths(root: str | Path, labels: str, model: str) -> tuple[Path, Pa
     return paths[0], paths[1]
 
 
-def open_predictor(root: str | Path, labels: str, model: str) -> Predictor:
-    """A trained model with the backbone's weights of this machine; no host is asked.
+class Predictor:
+    """A trained model of a checkout, which answers which grasp types suit an object and a task.
 
-    Raises:
-        InputError: it is not trained, or the weights here are not those it was trained with.
+    Args:
+        params: the checkout's: how meshes are rendered, and which photos are accepted.
     """
-    tensors, card = predictor_paths(root, labels, model)
-    read_card(card)  # a damaged card is told before missing weights
-    return load_predictor(tensors, card, find_weights(timeout_s=0))
+
+    def __init__(self, model: PredictorNetwork, params: Params) -> None:
+        self.model = model
+        self.params = params
+
+    @classmethod
+    def load(
+        cls, folder: str | Path = ".", *, labels: str | None = None, model: str | None = None
+    ) -> Predictor:
+        """The model with the backbone's weights of this machine; no host is asked.
+
+        Args:
+            folder: a checkout, whose parameters and models are used.
+            labels: source of the labels it was trained on; by default that of the parameters.
+            model: its name or the letter of its row in Table I; by default that of the parameters.
+
+        Raises:
+            InputError: it is not trained, or the weights here are not those it was trained with.
+        """
+        params = read_params(Path(folder) / "params.yaml")
+        chosen = labels or params.predict.labels, model or params.predict.model
+        tensors, card = predictor_paths(folder, *chosen)
+        read_card(card)  # a damaged card is told before missing weights
+        return cls(load_predictor(tensors, card, find_weights(timeout_s=0)), params)
+
+    @property
+    def card(self) -> ModelCard:
+        """What the model is, and what it knows."""
+        return self.model.card
+
+    def predict(
+        self,
+        shown: ObjectGeometry | np.ndarray | str | Path,
+        task: str | None = None,
+        *,
+        name: str = "",
+    ) -> Answer:
+        """The grasp types for what is shown.
+
+        Args:
+            shown: an object, which is rendered from around; the file of a photo; or images
+                (H, W, 3) or (N, H, W, 3) uint8 of one object, whose answers are averaged.
+            task: what the object is grasped for; models that do not see the task need none.
+            name: of the answer.
+
+        Raises:
+            InputError: an unknown task, or a photo that cannot be used.
+        """
+        task = check_task(self.card, task)
+        logits = self.model.logits(self.images(shown), task)
+        return Answer(name, softmax(logits, axis=-1).mean(axis=0), expit(logits).mean(axis=0))
+
+    def images(self, shown: ObjectGeometry | np.ndarray | str | Path) -> np.ndarray:
+        """What the model sees of it: (N, H, W, 3) uint8."""
+        if isinstance(shown, ObjectGeometry):
+            return views(shown.visual, self.params.renders, self.params.predict.views)
+        if isinstance(shown, str | Path):
+            return read_photo(shown, self.params.predict.photos)[None]
+        return shown[None] if shown.ndim == 3 else shown
+
+    def mesh_images(self, own: OwnObject) -> np.ndarray:
+        """As `images`, of a user's mesh that need not be prepared for planning."""
+        return mesh_views(own, self.params)
+
+    def describe(self, answers: Sequence[Answer], task: str | None) -> dict[str, Any]:
+        """Everything there is to say, as plain values for JSON."""
+        return describe(answers, self.card, check_task(self.card, task))
 
 
-def check_task(card: Card, task: str | None) -> str:
+def check_task(card: ModelCard, task: str | None) -> str:
     """The task to ask for; models that do not see the task need none.
 
     Raises:
@@ -83,21 +158,10 @@ def check_task(card: Card, task: str | None) -> str:
     return task
 
 
-def sees_task(card: Card) -> bool:
+def sees_task(card: ModelCard) -> bool:
     """Whether the answer depends on the task."""
     variant = VARIANTS[card.model]
     return variant.picture_shows_task or variant.task_vector
-
-
-def ask(predictor: Predictor, pictures: np.ndarray, task: str, name: str) -> Answer:
-    """The mean answer to pictures (N, H, W, 3) uint8 of one object."""
-    logits = predictor.logits(pictures, task)
-    return Answer(name, softmax(logits).mean(axis=0), sigmoid(logits).mean(axis=0))
-
-
-def sigmoid(logits: np.ndarray) -> np.ndarray:
-    """1 / (1 + exp(-logits))."""
-    return 1 / (1 + np.exp(-logits))
 
 
 def wanted_types(answer: Answer, types: Sequence[str]) -> list[str]:
@@ -107,7 +171,7 @@ def wanted_types(answer: Answer, types: Sequence[str]) -> list[str]:
     return [spelled(kind) for kind, yes in zip(types, chosen, strict=True) if yes]
 
 
-def describe(answers: Sequence[Answer], card: Card, task: str) -> dict[str, Any]:
+def describe(answers: Sequence[Answer], card: ModelCard, task: str) -> dict[str, Any]:
     """Everything there is to say, as plain values for JSON."""
     return {
         "model": card.model,
@@ -128,7 +192,7 @@ def describe(answers: Sequence[Answer], card: Card, task: str) -> dict[str, Any]
     }
 
 
-def report(answers: Sequence[Answer], card: Card, task: str) -> str:
+def report(answers: Sequence[Answer], card: ModelCard, task: str) -> str:
     """The same for people: a block for one answer, a row each for several."""
     asked = f"task {task}" if sees_task(card) else "whatever the task"
     lines = [
@@ -140,7 +204,7 @@ def report(answers: Sequence[Answer], card: Card, task: str) -> str:
     return "\n".join([*lines, *block(answers, card)]) + "\n"
 
 
-def _block(answers: Sequence[Answer], card: Card) -> list[str]:
+def _block(answers: Sequence[Answer], card: ModelCard) -> list[str]:
     (answer,) = answers
     rows = zip(card.types, answer.probability, answer.sigmoid, answer.chosen, strict=True)
     head = f"{'':18}probability  sigmoid"
@@ -150,7 +214,7 @@ def _block(answers: Sequence[Answer], card: Card) -> list[str]:
     ]
 
 
-def _rows(answers: Sequence[Answer], card: Card) -> list[str]:
+def _rows(answers: Sequence[Answer], card: ModelCard) -> list[str]:
     width = max(len(answer.name) for answer in answers)
     kinds = [spelled(kind) for kind in card.types]
     lines = ["  ".join([" " * width, *kinds, "chosen"])]
@@ -166,5 +230,5 @@ def spelled(kind: str) -> str:
     return kind.replace("_", " ").title()
 
 
-def _by_type(card: Card, values: np.ndarray) -> dict[str, float]:
+def _by_type(card: ModelCard, values: np.ndarray) -> dict[str, float]:
     return {kind: float(value) for kind, value in zip(card.types, values, strict=True)}

@@ -8,8 +8,8 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from grasptypes.predictors.prediction import Answer, spelled
-from grasptypes.predictors.predictor_files import Card
+from grasptypes.predictors.prediction import Answer, sees_task, spelled
+from grasptypes.predictors.predictor_files import ModelCard
 
 CHOSEN, OTHER = "#2a6f97", "#b8c4cc"
 ROW_IN = 2.6
@@ -18,9 +18,11 @@ LABEL_ROOM = 1.18  # right end of the bars' axis, so that a bar of 1 has room fo
 
 
 def draw_answers(
-    pictures: Sequence[np.ndarray], answers: Sequence[Answer], card: Card, title: str
+    pictures: Sequence[np.ndarray], answers: Sequence[Answer], card: ModelCard, task: str
 ) -> Figure:
     """One row an answer: its picture (H, W, 3) uint8 at the left, its bars at the right."""
+    asked = f"for {task}" if sees_task(card) else "whatever the task"
+    title = f"{card.model}, {card.labels} labels, {asked}; {card.backbone}, {card.weights}"
     height_in = ROW_IN * len(answers) + 0.5
     figure = Figure(figsize=(8.0, height_in), layout="constrained")
     panels = figure.subplots(len(answers), 2, squeeze=False, width_ratios=(1, 1.6))
@@ -49,7 +51,7 @@ def _shortened(name: str) -> str:
     return name if len(name) <= NAME_LENGTH else f"{name[:half]}…{name[1 - half :]}"
 
 
-def _draw_bars(axes: Axes, answer: Answer, card: Card) -> None:
+def _draw_bars(axes: Axes, answer: Answer, card: ModelCard) -> None:
     colours = [CHOSEN if yes else OTHER for yes in answer.chosen]
     kinds = [spelled(kind) for kind in card.types]
     bars = axes.barh(kinds, answer.probability, color=colours)

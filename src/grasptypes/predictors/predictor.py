@@ -66,7 +66,7 @@ class Architecture:
         ]
 
 
-class Heads(nn.Module):
+class BatchedMLP(nn.Module):
     """Any number of heads of one architecture, computed side by side.
 
     Training the folds and seeds of a table together costs a fraction of training them in turn.
@@ -125,7 +125,7 @@ class Heads(nn.Module):
         return x * (torch.stack(draws) >= self.dropout) / (1.0 - self.dropout)
 
     @torch.no_grad()
-    def absorb(self, centre: Tensor, projection: Tensor) -> Heads:
+    def absorb(self, centre: Tensor, projection: Tensor) -> BatchedMLP:
         """The same heads for inputs ``x`` where these take ``(x - centre) @ projection``.
 
         Args:
@@ -134,7 +134,7 @@ class Heads(nn.Module):
         """
         sizes = self.architecture
         wide = Architecture(projection.shape[1], sizes.tasks, sizes.hidden, sizes.outputs)
-        heads = Heads(wide, [()] * len(projection), self.dropout)
+        heads = BatchedMLP(wide, [()] * len(projection), self.dropout)
         kept = {name: t for name, t in self.state_dict().items() if name != "weights.0"}
         heads.load_state_dict(kept, strict=False)
         heads.weights[0].copy_(torch.bmm(projection, self.weights[0]))

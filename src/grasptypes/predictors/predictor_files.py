@@ -17,14 +17,14 @@ from grasptypes.errors import InputError
 from grasptypes.files import write_bytes, write_json
 from grasptypes.predictors.backbone import Backbone, load_backbone
 from grasptypes.predictors.features import for_inference, forward, shift_colours
-from grasptypes.predictors.predictor import VARIANTS, Architecture, Heads
+from grasptypes.predictors.predictor import VARIANTS, Architecture, BatchedMLP
 from grasptypes.predictors.weights import WEIGHTS_VARIABLE, Weights
 
 FROZEN = "none"
 
 
 @dataclass(frozen=True)
-class Card:
+class ModelCard:
     """All that is needed, beside the tensors, to use a predictor again.
 
     Attributes:
@@ -55,10 +55,10 @@ class Card:
     precision: str
 
 
-class Predictor:
+class PredictorNetwork:
     """A backbone, a head and their card: pictures and task to logits of grasp types."""
 
-    def __init__(self, backbone: Backbone, head: Heads, card: Card) -> None:
+    def __init__(self, backbone: Backbone, head: BatchedMLP, card: ModelCard) -> None:
         self.backbone = for_inference(backbone)
         self.head = head.eval()
         self.card = card
@@ -86,7 +86,11 @@ class Predictor:
 
 
 def write_predictor(
-    heads: Heads, backbone: Backbone | None, card: Card, tensors: str | Path, described: str | Path
+    heads: BatchedMLP,
+    backbone: Backbone | None,
+    card: ModelCard,
+    tensors: str | Path,
+    described: str | Path,
 ) -> None:
     """Write a predictor's tensors and card.
 
@@ -101,7 +105,7 @@ def write_predictor(
     write_json(described, asdict(card))
 
 
-def read_card(described: str | Path) -> Card:
+def read_card(described: str | Path) -> ModelCard:
     """A predictor's card.
 
     Raises:
@@ -112,12 +116,14 @@ def read_card(described: str | Path) -> Card:
         sizes = content.pop("architecture")
         sizes["hidden"] = tuple(sizes["hidden"])
         lists = {key: tuple(content.pop(key)) for key in ("types", "tasks")}
-        return Card(architecture=Architecture(**sizes), **lists, **content)
+        return ModelCard(architecture=Architecture(**sizes), **lists, **content)
     except (OSError, ValueError, KeyError, TypeError) as error:
         raise InputError(described, "", f"not a predictor's card: {error}") from error
 
 
-def load_predictor(tensors: str | Path, described: str | Path, weights: Weights) -> Predictor:
+def load_predictor(
+    tensors: str | Path, described: str | Path, weights: Weights
+) -> PredictorNetwork:
     """A predictor as it was trained.
 
     Args:
@@ -143,7 +149,7 @@ def load_predictor(tensors: str | Path, described: str | Path, weights: Weights)
             f"{card.architecture.inputs} features, but {card.backbone} gives "
             f"{backbone.kind.features} here",
         )
-    heads = Heads(card.architecture, [()])
+    heads = BatchedMLP(card.architecture, [()])
     try:
         state = safetensors.torch.load(Path(tensors).read_bytes())
         heads.load_state_dict(_below("head.", state))
@@ -151,7 +157,7 @@ def load_predictor(tensors: str | Path, described: str | Path, weights: Weights)
             backbone.load_state_dict(_below("backbone.", state))
     except (OSError, RuntimeError, safetensors.SafetensorError) as error:
         raise InputError(tensors, "", f"not this predictor's tensors: {error}") from error
-    return Predictor(backbone, heads, card)
+    return PredictorNetwork(backbone, heads, card)
 
 
 def _below(prefix: str, state: Mapping[str, torch.Tensor]) -> dict[str, torch.Tensor]:

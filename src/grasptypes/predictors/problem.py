@@ -17,79 +17,78 @@ from grasptypes.predictors.learning_inputs import (
     recorded_weights,
 )
 from grasptypes.predictors.predictor import VARIANTS, Architecture
-from grasptypes.predictors.predictor_files import Card
-from grasptypes.predictors.protocol import Recipe, recipe_of
+from grasptypes.predictors.predictor_files import ModelCard
+from grasptypes.settings.predictors import PredictorSettings
 from grasptypes.tables import read_table
 
 TRAINED_PRECISION = "fp32"  # in which fine-tuning computes
 
 
 @dataclass(frozen=True)
-class Problem:
+class LearningProblem:
     """What one model learns from one label source.
 
     Attributes:
         labels: the label source.
         model: name of the variant.
-        tasks: the ``tasks`` section of params.yaml.
-        examples: with features as inputs if the recipe is frozen, else with pictures.
-        recipe: how to train.
+        tasks: the colour shift of each, in the order of the task vector.
+        examples: with features as inputs if the backbone is frozen, else with pictures.
+        settings: how to train.
         record: the backbone in use.
-        backbone: to be fine-tuned; None if the recipe is frozen.
+        backbone: to be fine-tuned; None if the backbone is frozen.
     """
 
     labels: str
     model: str
-    tasks: Mapping[str, Mapping[str, int]]
+    tasks: Mapping[str, int]
     examples: Examples
-    recipe: Recipe
+    settings: PredictorSettings
     record: BackboneRecord
     backbone: Backbone | None
 
-    def card(self, architecture: Architecture, precision: str) -> Card:
+    def card(self, architecture: Architecture, precision: str) -> ModelCard:
         """The card of a predictor trained on this problem.
 
         Args:
-            precision: of the features, should the recipe be frozen.
+            precision: of the features, should the backbone be frozen.
         """
-        return Card(
+        return ModelCard(
             model=self.model,
             labels=self.labels,
             types=TYPES,
             tasks=tuple(self.tasks),
-            colour_shifts={task: entry["colour_shift"] for task, entry in self.tasks.items()},
+            colour_shifts=dict(self.tasks),
             architecture=architecture,
             backbone=self.record.backbone,
             weights=self.record.weights,
             input_px=self.record.input_px,
-            finetune=self.recipe.tuning.finetune,
-            precision=precision if self.recipe.frozen else TRAINED_PRECISION,
+            finetune=self.settings.finetune,
+            precision=precision if self.settings.frozen else TRAINED_PRECISION,
         )
 
 
 def read_problem(
     files: Mapping[str, Any],
     name: tuple[str, str],
-    tasks: Mapping[str, Mapping[str, int]],
-    settings: Mapping[str, Any],
-) -> Problem:
+    tasks: Mapping[str, int],
+    settings: PredictorSettings,
+) -> LearningProblem:
     """The problem of a label source and model.
 
     Args:
         files: ``inputs`` (features or pictures, a file an object to learn from), ``samples``,
             ``folds`` and ``backbone`` (its record).
         name: label source and model.
-        tasks: the ``tasks`` section of params.yaml.
-        settings: the ``predictors`` section.
+        tasks: the colour shift of each, in the order of the task vector.
 
     Raises:
         InputError: a file that is damaged or does not fit the others.
     """
     labels, model = name
-    record, recipe = read_backbone_record(files["backbone"]), recipe_of(settings)
+    record = read_backbone_record(files["backbone"])
     inputs, folds = read_inputs(files["inputs"], tasks), read_table(files["folds"], FOLD_SCHEMA)
     # Not every label source knows every object that was split into folds.
     folds = folds[folds["object"].isin(inputs)]
     examples = assemble(VARIANTS[model], inputs, read_samples(files["samples"]), folds, list(tasks))
-    backbone = None if recipe.frozen else load_backbone(recorded_weights(record), record.input_px)
-    return Problem(labels, model, tasks, examples, recipe, record, backbone)
+    backbone = None if settings.frozen else load_backbone(recorded_weights(record), record.input_px)
+    return LearningProblem(labels, model, tasks, examples, settings, record, backbone)

@@ -11,39 +11,11 @@ import torch
 from torch import Tensor
 
 from grasptypes.predictors.examples import Examples
-from grasptypes.predictors.predictor import Architecture, Heads, loss
+from grasptypes.predictors.predictor import Architecture, BatchedMLP, loss
 from grasptypes.seeds import rng
+from grasptypes.settings.predictors import PredictorSettings
 
 LOGGER = logging.getLogger("grasptypes")
-
-
-@dataclass(frozen=True)
-class Schedule:
-    """How heads are trained; the fields are keys of the ``predictors`` section of params.yaml.
-
-    Attributes:
-        hidden: outputs of the first three layers.
-        components: directions of the features the first layer is trained in.
-        whitening: 0 leaves the directions' variances, 1 makes them equal.
-        epochs: passes over the training examples.
-        batch: examples a step.
-        learning_rate: the largest, reached after ``warm_up`` of all steps.
-        warm_up: share of the steps in which the learning rate rises; then it falls to zero.
-        weight_decay: of AdamW.
-        dropout: share of the first two layers' outputs left out.
-        probability_weight: of the probability vector's cross-entropy.
-    """
-
-    hidden: tuple[int, int, int]
-    components: int
-    whitening: float
-    epochs: int
-    batch: int
-    learning_rate: float
-    warm_up: float
-    weight_decay: float
-    dropout: float
-    probability_weight: float
 
 
 @dataclass(frozen=True)
@@ -78,8 +50,11 @@ def members_by_group(groups: Sequence[object], seeds: int) -> list[Member]:
 
 
 def fit(
-    examples: Examples, members: Sequence[Member], schedule: Schedule, key: tuple[str | int, ...]
-) -> tuple[Heads, np.ndarray]:
+    examples: Examples,
+    members: Sequence[Member],
+    settings: PredictorSettings,
+    key: tuple[str | int, ...],
+) -> tuple[BatchedMLP, np.ndarray]:
     """Train one head a member.
 
     The first layer is trained in the leading principal directions of each member's own training
@@ -90,7 +65,7 @@ def fit(
     Args:
         examples: with features as inputs.
         members: what to train.
-        schedule: how.
+        settings: how.
         key: names the computation for its random numbers.
 
     Returns:
@@ -100,34 +75,34 @@ def fit(
     features = torch.from_numpy(examples.inputs)
     views = {member.group: member for member in members}
     smallest = min(len(member.train) for member in members)
-    components = min(schedule.components, smallest - 1, features.shape[1])
+    components = min(settings.components, smallest - 1, features.shape[1])
     projections = {
-        group: _principal(features[member.train], components, schedule.whitening)
+        group: _principal(features[member.train], components, settings.whitening)
         for group, member in views.items()
     }
     projected = {g: (features - c) @ p for g, (c, p) in projections.items()}
     tasks = 0 if examples.task_vectors is None else examples.task_vectors.shape[1]
-    sizes = Architecture(components, tasks, schedule.hidden, examples.labels.shape[1])
+    sizes = Architecture(components, tasks, settings.hidden, examples.labels.shape[1])
     keys = [(*key, member.group, member.seed) for member in members]
-    heads = Heads(sizes, keys, schedule.dropout)
+    heads = BatchedMLP(sizes, keys, settings.dropout)
     place = {group: number for number, group in enumerate(projected)}
-    data = _Data(
+    data = TrainingTensors(
         torch.stack(list(projected.values())),
         torch.tensor([place[member.group] for member in members]),
         None if examples.task_vectors is None else torch.from_numpy(examples.task_vectors),
         torch.from_numpy(examples.labels),
         torch.from_numpy(examples.probabilities),
     )
-    curves = _descend(heads, data, members, schedule, keys)
+    curves = _descend(heads, data, members, settings, keys)
     centres = torch.stack([projections[member.group][0] for member in members])
     bases = torch.stack([projections[member.group][1] for member in members])
     return heads.eval().absorb(centres[:, None], bases), curves
 
 
 @torch.inference_mode()
-def predict(heads: Heads, member: int, examples: Examples, rows: np.ndarray) -> np.ndarray:
+def predict(heads: BatchedMLP, member: int, examples: Examples, rows: np.ndarray) -> np.ndarray:
     """Logits (len(rows), types) of one of the heads."""
-    one = Heads(heads.architecture, [()])
+    one = BatchedMLP(heads.architecture, [()])
     one.load_state_dict({name: t[member : member + 1] for name, t in heads.state_dict().items()})
     inputs = torch.from_numpy(examples.inputs[rows])[None]
     tasks = examples.task_vectors
@@ -136,7 +111,7 @@ def predict(heads: Heads, member: int, examples: Examples, rows: np.ndarray) -> 
 
 
 @dataclass(frozen=True)
-class _Data:
+class TrainingTensors:
     """Tensors of the examples; ``inputs`` (groups, N, components), ``group`` (members,)."""
 
     inputs: Tensor
@@ -145,7 +120,7 @@ class _Data:
     labels: Tensor
     probabilities: Tensor
 
-    def losses(self, heads: Heads, rows: Tensor, probability_weight: float) -> Tensor:
+    def losses(self, heads: BatchedMLP, rows: Tensor, probability_weight: float) -> Tensor:
         """(members, batch) losses of the rows (members, batch)."""
         inputs = self.inputs[self.group[:, None], rows]
         logits = heads(inputs, None if self.tasks is None else self.tasks[rows])
@@ -167,28 +142,28 @@ def _principal(features: Tensor, components: int, whitening: float) -> tuple[Ten
 
 
 def _descend(
-    heads: Heads,
-    data: _Data,
+    heads: BatchedMLP,
+    data: TrainingTensors,
     members: Sequence[Member],
-    schedule: Schedule,
+    settings: PredictorSettings,
     keys: Sequence[tuple[str | int, ...]],
 ) -> np.ndarray:
     """Train the heads in place; returns the loss curves (epochs, members, 2)."""
     orders = [rng("order", *key) for key in keys]
     smallest = min(len(member.train) for member in members)
-    batch = min(schedule.batch, smallest)
+    batch = min(settings.batch, smallest)
     steps = smallest // batch
     optimiser = torch.optim.AdamW(
-        heads.parameters(), lr=schedule.learning_rate, weight_decay=schedule.weight_decay
+        heads.parameters(), lr=settings.learning_rate, weight_decay=settings.weight_decay
     )
     pace = torch.optim.lr_scheduler.OneCycleLR(
         optimiser,
-        schedule.learning_rate,
-        total_steps=steps * schedule.epochs,
-        pct_start=schedule.warm_up,
+        settings.learning_rate,
+        total_steps=steps * settings.epochs,
+        pct_start=settings.warm_up,
     )
-    curves = np.full((schedule.epochs, len(members), 2), np.nan)
-    for epoch in range(schedule.epochs):
+    curves = np.full((settings.epochs, len(members), 2), np.nan)
+    for epoch in range(settings.epochs):
         shuffled = [
             order.permutation(member.train)[: steps * batch]
             for order, member in zip(orders, members, strict=True)
@@ -198,7 +173,7 @@ def _descend(
         heads.train()
         for step in range(steps):
             losses = data.losses(
-                heads, rows[:, step * batch : (step + 1) * batch], schedule.probability_weight
+                heads, rows[:, step * batch : (step + 1) * batch], settings.probability_weight
             ).mean(dim=1)
             optimiser.zero_grad()
             losses.sum().backward()
@@ -206,16 +181,16 @@ def _descend(
             pace.step()
             total += losses.detach()
         curves[epoch, :, 0] = (total / steps).numpy()
-        curves[epoch, :, 1] = _test_losses(heads, data, members, schedule)
+        curves[epoch, :, 1] = _test_losses(heads, data, members, settings)
         LOGGER.info(
-            "epoch %d of %d: loss %.4f", epoch + 1, schedule.epochs, curves[epoch, :, 0].mean()
+            "epoch %d of %d: loss %.4f", epoch + 1, settings.epochs, curves[epoch, :, 0].mean()
         )
     return curves
 
 
 @torch.inference_mode()
 def _test_losses(
-    heads: Heads, data: _Data, members: Sequence[Member], schedule: Schedule
+    heads: BatchedMLP, data: TrainingTensors, members: Sequence[Member], settings: PredictorSettings
 ) -> np.ndarray:
     """(members,) mean loss over as many test examples as the smallest group has."""
     count = min(len(member.test) for member in members)
@@ -223,4 +198,4 @@ def _test_losses(
         return np.full(len(members), np.nan)
     heads.eval()
     rows = torch.from_numpy(np.stack([member.test[:count] for member in members]))
-    return data.losses(heads, rows, schedule.probability_weight).mean(dim=1).numpy()
+    return data.losses(heads, rows, settings.probability_weight).mean(dim=1).numpy()

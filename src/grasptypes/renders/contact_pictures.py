@@ -2,10 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import fields
-from typing import Any
-
 import numpy as np
 import trimesh
 from matplotlib import colormaps
@@ -13,52 +9,50 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.spatial import cKDTree
 
 from grasptypes.contact_maps.contact_map import ContactMap
-from grasptypes.renders.renderer import Camera, Studio
+from grasptypes.objects.object_files import Surface
+from grasptypes.renders.renderer import Camera
 from grasptypes.renders.scene import Part
+from grasptypes.settings.renders import CameraSettings, ContactPictureSettings
 
 Array = NDArray[np.float64]
 
 LEVELS = 24
 
 
-def studio_of(renders: Mapping[str, Any], size_px: int) -> Studio:
-    """The studio of the `renders` section for plain images: original colours, no shadow."""
-    shared = {field.name: renders[field.name] for field in fields(Studio)}
-    plain = {"size_px": size_px, "colour_randomisation": 0.0, "shadow_strength": 0.0}
-    return Studio(**{**shared, **plain})
+def plain(renders: CameraSettings, size_px: int) -> CameraSettings:
+    """The same for plain pictures: the materials' own colours, no shadow."""
+    return renders.changed(size_px=size_px, colour_randomisation=0.0, shadow_strength=0.0)
 
 
 def contact_picture(
     contact_map: ContactMap,
     contact: ArrayLike,
-    vertices: ArrayLike,
-    faces: ArrayLike,
+    surface: Surface,
     camera: Camera,
-    params: Mapping[str, Any],
+    settings: ContactPictureSettings,
 ) -> NDArray[np.uint8]:
-    """A contact map on the mesh, from two opposite directions side by side.
+    """A contact on an object, from the two opposite directions of the settings, side by side.
 
     Args:
-        contact: (N,) values at the map's points, 0 to 1; colours are scaled to the maximum.
-        vertices: (V, 3) metres.
-        faces: (F, 3) indices.
-        params: `azimuth_rad` and `elevation_rad` of the first view, `edge_m` of the finest mesh.
+        contact: (N,) values at the map's points, 0 to 1; scaled to their largest for the colours.
 
     Returns:
         (H, 2 H, 3) image.
     """
-    parts = _coloured_parts(contact_map, np.asarray(contact), vertices, faces, params["edge_m"])
+    parts = _coloured_parts(contact_map, np.asarray(contact), surface, settings.edge_m)
     scene, node, _ = camera.scene(parts)
     points = np.concatenate([part.vertices for part in parts])
     sides = []
     for turn in (0.0, np.pi):
-        pose = look_at(points, params["azimuth_rad"] + turn, params["elevation_rad"], camera.studio)
+        pose = look_at(points, settings.azimuth_rad + turn, settings.elevation_rad, camera.settings)
         scene.set_pose(node, pose)
         sides.append(camera.compose(camera.shoot(scene), points, pose))
     return np.hstack(sides)
 
 
-def look_at(points: Array, azimuth_rad: float, elevation_rad: float, studio: Studio) -> Array:
+def look_at(
+    points: Array, azimuth_rad: float, elevation_rad: float, settings: CameraSettings
+) -> Array:
     """T_object_camera (4, 4) of an upright camera (z up) that frames points (N, 3)."""
     back = np.array(
         [
@@ -71,7 +65,7 @@ def look_at(points: Array, azimuth_rad: float, elevation_rad: float, studio: Stu
     rotation = np.column_stack([right, np.cross(back, right), back])
     centre = (points.min(axis=0) + points.max(axis=0)) / 2
     seen = (points - centre) @ rotation
-    opening = studio.fill * np.tan(studio.field_of_view_rad / 2)
+    opening = settings.fill * np.tan(settings.field_of_view_rad / 2)
     distance_m = float((np.abs(seen[:, :2]).max(axis=1) / opening + seen[:, 2]).max())
     pose = np.eye(4)
     pose[:3, :3], pose[:3, 3] = rotation, centre + distance_m * back
@@ -79,10 +73,12 @@ def look_at(points: Array, azimuth_rad: float, elevation_rad: float, studio: Stu
 
 
 def _coloured_parts(
-    contact_map: ContactMap, contact: Array, vertices: ArrayLike, faces: ArrayLike, edge_m: float
+    contact_map: ContactMap, contact: Array, surface: Surface, edge_m: float
 ) -> list[Part]:
-    """The mesh cut into pieces of nearly equal contact, each with its colour."""
-    fine, triangles = trimesh.remesh.subdivide_to_size(vertices, faces, edge_m, max_iter=20)[:2]
+    """The mesh cut into pieces of nearly the same contact, each with its colour."""
+    fine, triangles = trimesh.remesh.subdivide_to_size(
+        surface.vertices, surface.faces, edge_m, max_iter=20
+    )[:2]
     mesh = trimesh.Trimesh(fine, triangles, process=False)
     centres, normals = mesh.triangles_center, mesh.face_normals
     # Points on the other side of a thin wall are as close, so only those facing the same way count.

@@ -82,7 +82,7 @@ def grasp_picture(
     azimuth_rad = best_azimuth(outside, *hand, elevation_rad)
     scene, node, _ = camera.scene(parts)
     points = np.concatenate([part.vertices for part in parts])
-    pose = look_at(points, azimuth_rad, elevation_rad, camera.studio)
+    pose = look_at(points, azimuth_rad, elevation_rad, camera.settings)
     scene.set_pose(node, pose)
     return camera.compose(camera.shoot(scene), points, pose)
 

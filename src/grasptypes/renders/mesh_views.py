@@ -1,47 +1,39 @@
-"""Renders of a user's mesh, made in the same way as the training images."""
+"""Images of a user's mesh, taken as the images the predictors have learned from."""
 
 from __future__ import annotations
 
 import tempfile
-from collections.abc import Mapping
-from dataclasses import fields
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
-from grasptypes.objects.mesh_import import ImportLimits, import_model
+from grasptypes.objects.mesh_import import import_model
 from grasptypes.objects.preparation import scaled_parts, visual_glb
-from grasptypes.renders.renderer import Camera, Studio
+from grasptypes.renders.renderer import Camera
 from grasptypes.renders.scene import load_parts
+from grasptypes.settings.objects import OwnObject
+from grasptypes.settings.params import Params
+from grasptypes.settings.renders import CameraSettings
+
+# Draws for a user's mesh depend on this word, so that its file's name does not change the answer.
+MESH_WORD = "mesh"
 
 
-def mesh_views(
-    own: Mapping[str, Any],
-    objects: Mapping[str, Any],
-    renders: Mapping[str, Any],
-    count: int,
-    key: str,
-) -> np.ndarray:
-    """Views (count, S, S, 3) uint8 of a mesh from random sides, determined by `key`.
-
-    Args:
-        own: a block `objects.own.<name>`; mass and density have no effect.
-        objects, renders: those sections of params.yaml.
+def mesh_views(own: OwnObject, params: Params) -> np.ndarray:
+    """Views (count, S, S, 3) uint8 of a mesh from random sides; mass and density do not show.
 
     Raises:
         InputError: the mesh cannot be used.
     """
-    found = import_model(own, ImportLimits(**objects["import"]))
-    glb = visual_glb(scaled_parts(found.model, found.scale), objects["resolution"]["crease_deg"])
+    found = import_model(own, params.objects.import_)
+    crease_deg = params.objects.resolution.crease_deg
     with tempfile.TemporaryDirectory() as folder:
         visual = Path(folder) / "visual.glb"
-        visual.write_bytes(glb)
-        return views(visual, renders, count, key)
+        visual.write_bytes(visual_glb(scaled_parts(found.model, found.scale), crease_deg))
+        return views(visual, params.renders, params.predict.views)
 
 
-def views(visual: str | Path, renders: Mapping[str, Any], count: int, key: str) -> np.ndarray:
-    """Views (count, S, S, 3) uint8 of a prepared object from random sides, determined by `key`."""
-    studio = Studio(**{field.name: renders[field.name] for field in fields(Studio)})
-    with Camera(studio) as camera:
-        return np.stack(list(camera.views(load_parts(visual), count, key, 0).pictures()))
+def views(visual: str | Path, settings: CameraSettings, count: int) -> np.ndarray:
+    """Views (count, S, S, 3) uint8 of a prepared mesh from random sides, always the same ones."""
+    with Camera(settings) as camera:
+        return np.stack(list(camera.views(load_parts(visual), count, MESH_WORD, 0).pictures()))

@@ -8,29 +8,18 @@ import zlib
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import NamedTuple
 
 import numpy as np
 from PIL import Image, ImageOps, UnidentifiedImageError
 
 from grasptypes.errors import InputError
+from grasptypes.settings.commands import PhotoLimits
 
 # No formats that run another program (EPS) or are not for single screen images.
 FORMATS = ("PNG", "JPEG", "WEBP", "BMP", "TIFF", "GIF", "PPM")
 SUFFIXES = (".png", ".jpg", ".jpeg", ".webp", ".bmp", ".tif", ".tiff", ".gif", ".ppm")
 _MODES = ("1", "L", "P", "RGB", "CMYK", "YCbCr")
 _BROKEN = (OSError, SyntaxError, ValueError, EOFError, IndexError, struct.error, zlib.error)
-
-
-class PhotoLimits(NamedTuple):
-    """Which images are accepted; the fields are keys of the `predict` section of params.yaml."""
-
-    min_px: int
-    """Shortest side."""
-    max_pixels: int
-    """Width times height."""
-    reduce_px: int
-    """Longer sides are reduced to this: the backbone sees far less."""
 
 
 def photo_files(path: str | Path) -> list[Path]:

@@ -9,9 +9,8 @@ from __future__ import annotations
 import io
 import logging
 import os
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -20,6 +19,7 @@ from PIL import Image
 from grasptypes.renders.gl_platform import PLATFORM_VARIABLE, choose_platform
 from grasptypes.renders.scene import Part, ground_light, recolour, surface_points, viewpoints
 from grasptypes.seeds import rng
+from grasptypes.settings.renders import CameraSettings
 
 if TYPE_CHECKING:
     import pyrender
@@ -27,63 +27,23 @@ if TYPE_CHECKING:
 LOGGER = logging.getLogger("grasptypes")
 
 
-@dataclass(frozen=True)
-class Studio:
-    """How images are rendered; the fields are the keys of the ``renders`` section of params.yaml.
-
-    Attributes:
-        size_px: height and width of an image.
-        field_of_view_rad: full angle of the image.
-        fill: share of half the image that the object reaches.
-        min_distance_radii: closest camera distance in radii of the object.
-        colour_randomisation: 0 keeps the materials' colours, 1 draws new ones for every view.
-        ambient: linear ambient light.
-        lights: one mapping per light: ``intensity_lux`` and ``direction`` (3,), in which the light
-            travels in the camera frame. The first is the key light, which casts the shadow.
-        background_rgb: (3,) 8-bit colour of the ground at the centre of the image.
-        vignette: share by which the ground is darker in the corners.
-        ground_elevation_rad: angle at which the camera looks down on the ground.
-        shadow_strength: share of the light that the deepest shadow removes; 0 disables the shadow.
-        shadow_softness_px: standard deviation of the shadow's blur.
-        shadow_fading: the highest point casts exp(-fading) of the lowest point's shadow.
-        shadow_points: surface points that cast the shadow.
-        png_compression: zlib level, 0 to 9.
-    """
-
-    size_px: int
-    field_of_view_rad: float
-    fill: float
-    min_distance_radii: float
-    colour_randomisation: float
-    ambient: float
-    lights: Sequence[Mapping[str, Any]]
-    background_rgb: Sequence[int]
-    vignette: float
-    ground_elevation_rad: float
-    shadow_strength: float
-    shadow_softness_px: float
-    shadow_fading: float
-    shadow_points: int
-    png_compression: int
-
-
 class Camera:
-    """An off-screen OpenGL context and a studio, used for any number of objects.
+    """An off-screen OpenGL context, used for any number of objects.
 
     The context, the shader programs and the scene of an object are created once and reused for all
     its views: only poses and colours change between images.
     """
 
-    def __init__(self, studio: Studio) -> None:
+    def __init__(self, settings: CameraSettings) -> None:
         self.platform = choose_platform()
         # PyOpenGL reads the variable only at its first import.
         os.environ[PLATFORM_VARIABLE] = self.platform
         import pyrender
 
         self._pyrender = pyrender
-        self.studio = studio
-        self._renderer = pyrender.OffscreenRenderer(studio.size_px, studio.size_px)
-        self._background = _background(studio)
+        self.settings = settings
+        self._renderer = pyrender.OffscreenRenderer(settings.size_px, settings.size_px)
+        self._background = _background(settings)
         LOGGER.info("rendering through %s", self.platform)
 
     def __enter__(self) -> Camera:
@@ -93,23 +53,23 @@ class Camera:
         self._renderer.delete()
 
     def views(self, parts: Sequence[Part], count: int, key: str, seed: int) -> Views:
-        """``count`` random views of an object, determined by ``key`` and ``seed``."""
-        studio = self.studio
+        """``count`` random views of an object; the same ones for the same ``key`` and ``seed``."""
+        settings = self.settings
         vertices = np.concatenate([part.vertices for part in parts])
         T_object_camera = viewpoints(
             vertices,
             count,
-            studio.field_of_view_rad,
-            studio.fill,
-            studio.min_distance_radii,
+            settings.field_of_view_rad,
+            settings.fill,
+            settings.min_distance_radii,
             rng("viewpoints", key, seed),
         )
         return Views(self, parts, T_object_camera, key, seed)
 
     def scene(self, parts: Sequence[Part]) -> tuple[pyrender.Scene, pyrender.Node, list[Any]]:
-        """The object with lights that move with the camera: scene, camera node, materials."""
-        pyrender, studio = self._pyrender, self.studio
-        scene = pyrender.Scene(bg_color=(0, 0, 0, 0), ambient_light=(studio.ambient,) * 3)
+        """The object, lit by lights that travel with the camera: scene, camera node, materials."""
+        pyrender, settings = self._pyrender, self.settings
+        scene = pyrender.Scene(bg_color=(0, 0, 0, 0), ambient_light=(settings.ambient,) * 3)
         materials = [_material(pyrender, part) for part in parts]
         primitives = [
             pyrender.Primitive(part.vertices, part.normals, indices=part.faces, material=material)
@@ -118,12 +78,12 @@ class Camera:
         scene.add(pyrender.Mesh(primitives))
         diagonal_m = float(scene.scale)
         lens = pyrender.PerspectiveCamera(
-            studio.field_of_view_rad, znear=diagonal_m / 50, zfar=diagonal_m * 50, aspectRatio=1.0
+            settings.field_of_view_rad, znear=diagonal_m / 50, zfar=diagonal_m * 50, aspectRatio=1.0
         )
         camera = scene.add(lens)
-        for number, light in enumerate(studio.lights):
-            lamp = pyrender.DirectionalLight(intensity=light["intensity_lux"])
-            pose = _looking_along(np.array(light["direction"]))
+        for number, light in enumerate(settings.lights):
+            lamp = pyrender.DirectionalLight(intensity=light.intensity_lux)
+            pose = _looking_along(np.array(light.direction))
             scene.add_node(_numbered_node(pyrender, number, lamp, pose), parent_node=camera)
         return scene, camera, materials
 
@@ -138,20 +98,20 @@ class Camera:
     def compose(
         self, picture: np.ndarray, points: np.ndarray, T_object_camera: np.ndarray
     ) -> np.ndarray:
-        """Compose an image of :meth:`shoot` with the ground and shadow: (size, size, 3) uint8."""
-        studio = self.studio
+        """Lay a picture of :meth:`shoot` over the ground with its shadow: (size, size, 3) uint8."""
+        settings = self.settings
         ground = (255 - picture[..., 3]) * np.float32(1 / 255)
-        if studio.shadow_strength > 0:
+        if settings.shadow_strength > 0:
             ground *= ground_light(
                 points,
                 T_object_camera,
-                studio.size_px,
-                studio.field_of_view_rad,
-                studio.ground_elevation_rad,
-                _unit(studio.lights[0]["direction"]),
-                studio.shadow_softness_px,
-                studio.shadow_strength,
-                studio.shadow_fading,
+                settings.size_px,
+                settings.field_of_view_rad,
+                settings.ground_elevation_rad,
+                _unit(settings.lights[0].direction),
+                settings.shadow_softness_px,
+                settings.shadow_strength,
+                settings.shadow_fading,
             )
         colour = self._background * ground[..., None]
         colour += picture[..., :3]
@@ -182,13 +142,13 @@ class Views:
         return self._finished(self._camera.compose)
 
     def pngs(self) -> Iterator[bytes]:
-        """The images as PNG files, in order."""
-        level = self._camera.studio.png_compression
+        """The pictures as PNG files, in order."""
+        level = self._camera.settings.png_compression
         return self._finished(lambda *view: png_bytes(self._camera.compose(*view), level))
 
     def _finished(self, finish: Any) -> Iterator[Any]:
-        """Run ``finish`` on each image while the next view is drawn."""
-        count = self._camera.studio.shadow_points
+        """``finish`` runs beside the drawing of the next view, one view behind it."""
+        count = self._camera.settings.shadow_points
         points = surface_points(self._parts, count, rng("shadow", self._key, self._seed))
         with ThreadPoolExecutor(max_workers=1) as pool:
             pending = None
@@ -200,7 +160,7 @@ class Views:
                 yield pending.result()
 
     def _drawn(self) -> Iterator[np.ndarray]:
-        amount = self._camera.studio.colour_randomisation
+        amount = self._camera.settings.colour_randomisation
         colours = rng("colours", self._key, self._seed)
         scene, node, materials = self._camera.scene(self._parts)
         for pose in self.T_object_camera:
@@ -219,12 +179,12 @@ def png_bytes(picture: np.ndarray, compression: int) -> bytes:
     return buffer.getvalue()
 
 
-def _background(studio: Studio) -> np.ndarray:
+def _background(settings: CameraSettings) -> np.ndarray:
     """(size, size, 3) float32: the empty ground, darker towards the corners."""
-    axis = np.linspace(-1, 1, studio.size_px, dtype=np.float32)
+    axis = np.linspace(-1, 1, settings.size_px, dtype=np.float32)
     falloff = (axis[:, None] ** 2 + axis[None, :] ** 2) / 2
-    shade = 1 - np.float32(studio.vignette) * falloff
-    return shade[..., None] * np.asarray(studio.background_rgb, dtype=np.float32)
+    shade = 1 - np.float32(settings.vignette) * falloff
+    return shade[..., None] * np.asarray(settings.background_rgb, dtype=np.float32)
 
 
 def _numbered_node(pyrender: Any, number: int, light: Any, pose: np.ndarray) -> Any:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pandas as pd
 import pandera.pandas as pa
+from scipy.special import softmax
 
 from grasptypes.labels.samples import LABELS, TYPES
 from grasptypes.predictors.metrics import (
@@ -13,7 +14,6 @@ from grasptypes.predictors.metrics import (
     chosen,
     multilabel_accuracy,
     multilabel_precision,
-    softmax,
 )
 from grasptypes.predictors.predictor import VARIANTS
 
@@ -90,7 +90,7 @@ def by_object(predictions: pd.DataFrame, samples: pd.DataFrame) -> pd.DataFrame:
     logits = predictions[list(LOGITS)].to_numpy(dtype=np.float64)
     named = chosen(logits)
     values = {
-        "angular_similarity": angular_similarity(softmax(logits), truth.astype(float)),
+        "angular_similarity": angular_similarity(softmax(logits, axis=-1), truth.astype(float)),
         "multilabel_accuracy": multilabel_accuracy(named, truth),
         "multilabel_precision": multilabel_precision(named, truth),
     }

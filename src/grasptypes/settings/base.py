@@ -110,6 +110,10 @@ class Settings(BaseModel):
         except ValidationError as error:
             raise _explained(error, cls, path) from error
 
+    def changed(self, **values: Any) -> Self:
+        """The same settings with other values, which are not checked."""
+        return self.model_copy(update=values)
+
 
 def _explained(error: ValidationError, section: type[Settings], path: str | Path) -> InputError:
     """The first mistake as one line; an unknown key goes before what is missing in its place."""

@@ -64,6 +64,11 @@ class Params(Settings):
     plan: PlanSettings
     tracking: TrackingSettings
 
+    @property
+    def colour_shifts(self) -> dict[str, int]:
+        """What each task adds to the RGB values of images that show it."""
+        return {name: task.colour_shift for name, task in self.tasks.items()}
+
     @model_validator(mode="after")
     def _tasks_agree(self) -> Self:
         shown: dict[int, str] = {}

@@ -61,6 +61,11 @@ class PredictorSettings(Settings):
     finetune: Literal["none", "last_blocks", "all"] = setting("what of the backbone is trained")
     finetuning: FineTuning
 
+    @property
+    def frozen(self) -> bool:
+        """Whether the backbone stays as it is, so that its features can be computed beforehand."""
+        return self.finetune == "none"
+
 
 class VariantTrial(Settings):
     """How many shapes of an object, and images of each, a predictor learns from."""

@@ -26,10 +26,9 @@ class RenderSheet(Settings):
     tile_px: int = setting("size of a picture", ge=16, le=2048)
 
 
-class RenderSettings(Settings):
-    """Pictures of the objects."""
+class CameraSettings(Settings):
+    """How an image is taken."""
 
-    views: int = setting("pictures of each object", ge=1, le=1000)
     size_px: int = setting("height and width of a picture", ge=32, le=2048)
     field_of_view_rad: float = setting("full angle of a picture", ge=0.05, le=2.5)
     fill: float = setting("share of the half picture that the object reaches", ge=0.1, le=1)
@@ -57,6 +56,12 @@ class RenderSettings(Settings):
     )
     shadow_points: int = setting("surface points that throw the shadow", ge=100, le=1000000)
     png_compression: int = setting("zlib level", ge=0, le=9)
+
+
+class RenderSettings(CameraSettings):
+    """Images of the objects."""
+
+    views: int = setting("images of each object", ge=1, le=1000)
     sheet: RenderSheet
 
 

@@ -53,6 +53,11 @@ class Grips(Settings):
     pinch: Grip
     rim: Grip
 
+    def named(self, name: str) -> Grip:
+        """The grip of this name."""
+        grip: Grip = getattr(self, name)
+        return grip
+
 
 class CandidateSettings(Settings):
     """How candidates are drawn."""

@@ -7,22 +7,21 @@ this hand is not a human one and may hold the same place better from another sid
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from grasptypes.synthesis.closing import ClosingSettings, close_fingers, slide_in
-from grasptypes.synthesis.fields import Field
-from grasptypes.synthesis.hand_model import HandModel
+from grasptypes.settings.synthesis import CandidateSettings
+from grasptypes.synthesis.closing import close_fingers, slide_in
+from grasptypes.synthesis.scene import GraspScene
 
 Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
-class Person:
+class Demonstration:
     """One session's contact and the way the hand was placed, in the object's frame.
 
     Attributes:
@@ -43,29 +42,7 @@ class Person:
     centre_m: Array
 
 
-class CandidateSettings(NamedTuple):
-    """How to draw candidates."""
-
-    number: int
-    """Candidates a session."""
-    follow_share: float
-    """Share of them that follow the person's own placement of the hand."""
-    position_sd_m: float
-    """Standard deviation of the point aimed at."""
-    tilt_sd_rad: float
-    """Standard deviation of the approach about each axis, and of the roll of followers."""
-    rolls: int
-    """Evenly spaced rolls of the others."""
-    start_m: float
-    """How far before the object's foremost point hands start, so that they are clear of it."""
-    back_offs_m: list[float]
-    """How far hands draw back again from where they touched."""
-    grips: Mapping[str, Mapping[str, Any]]
-    """For each grip, `spreads_rad` and `palm_distances_m` (of the palm from the point aimed at;
-    the object may stop it earlier)."""
-
-
-class Hands(NamedTuple):
+class HandStates(NamedTuple):
     """Hands in the object's frame."""
 
     T_object_hand: Array
@@ -73,33 +50,36 @@ class Hands(NamedTuple):
     joint_angles_rad: Array
     """(n, 8) in the order of `kinematics.JOINT_NAMES`."""
 
-    def take(self, index: NDArray[Any]) -> Hands:
+    def take(self, index: NDArray[Any]) -> HandStates:
         """Those of an index or mask."""
-        return Hands(self.T_object_hand[index], self.joint_angles_rad[index])
+        return HandStates(self.T_object_hand[index], self.joint_angles_rad[index])
 
 
 def draw_candidates(
-    model: HandModel, grid: Field, person: Person, settings: CandidateSettings,
-    closing: ClosingSettings, draw: np.random.Generator,
-) -> Hands:  # fmt: skip
-    """Hands that have come up to the object and closed their fingers."""
+    scene: GraspScene,
+    demonstration: Demonstration,
+    settings: CandidateSettings,
+    touch_m: float,
+    draw: np.random.Generator,
+) -> HandStates:
+    """Hands that have come up to the object and closed their fingers until `touch_m` from it."""
     count = settings.number
     followers = draw.random(count) < settings.follow_share
-    aim, approach, side = _aims(person, followers, settings, draw)
-    grip = settings.grips[person.grip]
-    spread = draw.choice(grip["spreads_rad"], count)
-    distance = draw.choice(grip["palm_distances_m"], count)
+    aim, approach, side = _aims(demonstration, followers, settings, draw)
+    grip = settings.grips.named(demonstration.grip)
+    spread = draw.choice(grip.spreads_rad, count)
+    distance = draw.choice(grip.palm_distances_m, count)
     T = np.zeros((count, 4, 4))
     T[:, :3, :3] = frames(approach, side)
-    foremost = (person.points_m @ approach.T).min(axis=0)
+    foremost = (demonstration.points_m @ approach.T).min(axis=0)
     start = np.einsum("ni,ni->n", aim, approach) - foremost + settings.start_m
     T[:, :3, 3] = aim - start[:, None] * approach
     T[:, 3, 3] = 1.0
-    moved = slide_in(model, grid, T, spread, start - distance, closing)
-    touched = moved < start - distance - closing.touch_m
+    moved = slide_in(scene, T, spread, start - distance, touch_m)
+    touched = moved < start - distance - touch_m
     moved -= touched * draw.choice(settings.back_offs_m, count)
     T[:, :3, 3] += moved[:, None] * approach
-    return Hands(T, close_fingers(model, grid, T, spread, closing))
+    return HandStates(T, close_fingers(scene, T, spread, touch_m))
 
 
 def frames(approach: Array, side: Array) -> Array:
@@ -111,23 +91,25 @@ def frames(approach: Array, side: Array) -> Array:
 
 
 def _aims(
-    person: Person, followers: NDArray[np.bool_], settings: CandidateSettings,
+    demonstration: Demonstration,
+    followers: NDArray[np.bool_],
+    settings: CandidateSettings,
     draw: np.random.Generator,
-) -> tuple[Array, Array, Array]:  # fmt: skip
+) -> tuple[Array, Array, Array]:
     """Points aimed at, unit approaches, and sides of fingers 1 and 2 (all (n, 3))."""
     count = len(followers)
-    weight = person.contact / person.contact.sum()
+    weight = demonstration.contact / demonstration.contact.sum()
     point = draw.choice(len(weight), count, p=weight)
-    aim = np.where(followers[:, None], person.centre_m, person.points_m[point])
+    aim = np.where(followers[:, None], demonstration.centre_m, demonstration.points_m[point])
     aim = aim + draw.normal(0.0, settings.position_sd_m, (count, 3))
-    approach = np.where(followers[:, None], person.approach, -person.normals[point])
+    approach = np.where(followers[:, None], demonstration.approach, -demonstration.normals[point])
     approach = approach + draw.normal(0.0, settings.tilt_sd_rad, (count, 3))
     approach /= np.linalg.norm(approach, axis=1, keepdims=True)
     roll = draw.integers(settings.rolls, size=count) * (2 * np.pi / settings.rolls)
     near = draw.normal(0.0, settings.tilt_sd_rad, count) + np.pi * draw.integers(2, size=count)
     roll = np.where(followers, near, roll)
     # Roll zero is the person's own closing direction, or for lack of one the least aligned axis.
-    across = np.broadcast_to(person.closing, (count, 3))
+    across = np.broadcast_to(demonstration.closing, (count, 3))
     parallel = np.abs(np.einsum("ni,ni->n", across, approach)) > 0.9
     least = np.eye(3)[np.abs(approach).argmin(axis=1)]
     y = frames(approach, np.where(parallel[:, None], least, across))[:, :, 1]

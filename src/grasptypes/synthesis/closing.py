@@ -6,8 +6,6 @@ its signed distance to the object, so no step can jump over a surface, however t
 
 from __future__ import annotations
 
-from typing import NamedTuple
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -15,6 +13,7 @@ from grasptypes.compiled import compiled
 from grasptypes.hand import kinematics
 from grasptypes.synthesis.fields import Field, distance
 from grasptypes.synthesis.hand_model import FIRST_DISTAL, FIRST_PROXIMAL, HandModel
+from grasptypes.synthesis.scene import GraspScene
 
 Array = NDArray[np.float64]
 
@@ -22,23 +21,16 @@ MAX_STEPS = 60
 _FINGERS = 3
 
 
-class ClosingSettings(NamedTuple):
-    """When a moving link counts as touching."""
-
-    touch_m: float
-    """Distance between surfaces at which a link stops, metres."""
-
-
 def slide_in(
-    model: HandModel, grid: Field, T_object_hand: Array, spread_rad: Array, reach_m: Array,
-    settings: ClosingSettings,
-) -> Array:  # fmt: skip
+    scene: GraspScene, T_object_hand: Array, spread_rad: Array, reach_m: Array, touch_m: float
+) -> Array:
     """Move open hands along their approach (+z) until they touch or have gone their way.
 
     Args:
         T_object_hand: (n, 4, 4) hands in the object's frame, clear of the object.
         spread_rad: (n,) spread of the fingers.
         reach_m: (n,) how far each may go at most.
+        touch_m: distance between surfaces at which a link stops.
 
     Returns:
         (n,) how far each went, metres.
@@ -47,13 +39,12 @@ def slide_in(
     angles[:, :2] = spread_rad[:, None]
     poses = T_object_hand[:, None] @ kinematics.link_poses(angles)
     approach = np.ascontiguousarray(T_object_hand[:, :3, 2])
-    return _slide(model, grid, poses, approach, reach_m, settings.touch_m)
+    return _slide(scene.hand, scene.field, poses, approach, reach_m, touch_m)
 
 
 def close_fingers(
-    model: HandModel, grid: Field, T_object_hand: Array, spread_rad: Array,
-    settings: ClosingSettings,
-) -> Array:  # fmt: skip
+    scene: GraspScene, T_object_hand: Array, spread_rad: Array, touch_m: float
+) -> Array:
     """Close each finger until it touches, as the real hand does.
 
     A finger base and its fingertip turn together, three to one. If the proximal link is stopped
@@ -62,6 +53,7 @@ def close_fingers(
     Args:
         T_object_hand: (n, 4, 4) hands in the object's frame.
         spread_rad: (n,).
+        touch_m: distance between surfaces at which a link stops.
 
     Returns:
         (n, 8) joint angles in the order of `kinematics.JOINT_NAMES`, within their limits.
@@ -72,7 +64,9 @@ def close_fingers(
     T_object_rest = T_object_hand[:, None] @ kinematics.link_poses(angles)[:, proximal]
     T_proximal_distal = kinematics.JOINTS[-1].T_parent_rest
     limits = kinematics.JOINT_LIMITS_RAD[[2, 5], 1]
-    angles[:, 2:] = _close(model, grid, T_object_rest, T_proximal_distal, limits, settings.touch_m)
+    angles[:, 2:] = _close(
+        scene.hand, scene.field, T_object_rest, T_proximal_distal, limits, touch_m
+    )
     return angles
 
 

@@ -14,9 +14,12 @@ from numpy.typing import NDArray
 from grasptypes.compiled import compiled
 from grasptypes.hand import kinematics
 from grasptypes.poses import inverse
+from grasptypes.settings.synthesis import EnergySettings
+from grasptypes.synthesis.candidates import Demonstration
 from grasptypes.synthesis.closing import moved
 from grasptypes.synthesis.fields import Field, distance, distance_in
 from grasptypes.synthesis.hand_model import FIRST_DISTAL, FIRST_PROXIMAL, PALM, HandModel
+from grasptypes.synthesis.scene import GraspScene
 
 Array = NDArray[np.float64]
 
@@ -24,26 +27,6 @@ TERMS = ("attraction", "repulsion", "thumb", "penetration", "self_collision")
 # Gaps beyond this are only bounded from below: nobody asks how far a link is that does not touch.
 FAR_M = 0.005
 _THUMB = len(kinematics.LINK_NAMES) - 1
-
-
-class EnergySettings(NamedTuple):
-    """Weights and ranges; their sources are in params.yaml."""
-
-    contact_threshold: float
-    """Contact from which a point attracts, 0 to 1."""
-    attraction_points: int
-    """How many contact points to use at most."""
-    repulsion_points: int
-    """How many other points to use at most."""
-    attraction_weight: float
-    repulsion_weight: float
-    thumb_weight: float
-    penetration_weight: float
-    self_collision_weight: float
-    range_m: float
-    """Distance from which a point's term stays constant."""
-    repulsion_offset_m: float
-    """How far the nearest hand point may lie from a point's normal to repel."""
 
 
 class Targets(NamedTuple):
@@ -73,37 +56,36 @@ class Closeness(NamedTuple):
 
 
 def draw_targets(
-    points_m: Array, normals: Array, contact: Array, settings: EnergySettings,
-    draw: np.random.Generator,
-) -> Targets:  # fmt: skip
-    """Choose a session's attracting and repelling points among (N, 3) surface points.
+    demonstration: Demonstration, settings: EnergySettings, draw: np.random.Generator
+) -> Targets:
+    """Choose a session's attracting and repelling points among the demonstration's.
 
     If nobody touched anything, the points with the strongest contact attract.
     """
+    contact = demonstration.contact
     touched = contact >= min(settings.contact_threshold, contact.max())
-    chosen = []
-    for mask, count in (
-        (touched, settings.attraction_points), (~touched, settings.repulsion_points)
-    ):  # fmt: skip
-        index = np.flatnonzero(mask)
-        chosen.append(draw.permutation(index)[:count])
-    index = np.concatenate(chosen)
+    attracting = draw.permutation(np.flatnonzero(touched))[: settings.attraction_points]
+    repelling = draw.permutation(np.flatnonzero(~touched))[: settings.repulsion_points]
+    index = np.concatenate([attracting, repelling])
     return Targets(
-        np.ascontiguousarray(points_m[index], dtype=np.float64),
-        np.ascontiguousarray(normals[index], dtype=np.float64),
-        len(chosen[0]),
+        np.ascontiguousarray(demonstration.points_m[index], dtype=np.float64),
+        np.ascontiguousarray(demonstration.normals[index], dtype=np.float64),
+        len(attracting),
     )
 
 
-def closeness(model: HandModel, grid: Field, link_poses: Array) -> Closeness:
+def closeness(scene: GraspScene, link_poses: Array) -> Closeness:
     """Distances of hands with links at (n, 9, 4, 4) in the object's frame."""
-    return Closeness(*_closeness(model, grid, link_poses))
+    return Closeness(*_closeness(scene.hand, scene.field, link_poses))
 
 
 def energies(
-    model: HandModel, link_poses: Array, close: Closeness, targets: Targets,
+    hand: HandModel,
+    link_poses: Array,
+    close: Closeness,
+    targets: Targets,
     settings: EnergySettings,
-) -> Array:  # fmt: skip
+) -> Array:
     """The terms of each grasp's energy; their sum is the energy, low is good.
 
     Args:
@@ -114,10 +96,8 @@ def energies(
         (n, 5) in the order of `TERMS`.
     """
     terms = np.empty((len(link_poses), len(TERMS)))
-    contact = _contact_terms(
-        model, inverse(link_poses), targets.points, targets.normals, targets.attracting,
-        settings.range_m, settings.repulsion_offset_m,
-    )  # fmt: skip
+    reach = settings.range_m, settings.repulsion_offset_m
+    contact = _contact_terms(hand, inverse(link_poses), *targets, *reach)
     count = len(targets.points)
     terms[:, 0] = settings.attraction_weight * contact[:, 0] / count
     terms[:, 1] = -settings.repulsion_weight * contact[:, 1] / count

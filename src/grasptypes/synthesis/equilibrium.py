@@ -10,56 +10,39 @@ computing the minimum of a quadratic form on a convex set, SIAM J. Control 4(1),
 
 from __future__ import annotations
 
-from typing import NamedTuple
-
 import numpy as np
 from numpy.typing import NDArray
 
 from grasptypes.compiled import compiled
+from grasptypes.settings.synthesis import EquilibriumSettings
 from grasptypes.synthesis.closing import moved
 from grasptypes.synthesis.fields import Field, distance, gradient
 from grasptypes.synthesis.hand_model import HandModel
+from grasptypes.synthesis.scene import GraspScene
 
 Array = NDArray[np.float64]
 
 
-class EquilibriumSettings(NamedTuple):
-    """What may press on the object, and how it is judged."""
-
-    friction: float
-    """Coulomb coefficient between hand and object."""
-    cone_edges: int
-    """Edges of the pyramid that stands for a friction cone."""
-    contact_m: float
-    """Distance up to which a point of the hand counts as touching."""
-    iterations: int
-    """Steps of Gilbert's algorithm."""
-    weight: float
-    """What one newton of imbalance adds to the energy."""
-
-
-def imbalance(
-    model: HandModel, grid: Field, link_poses: Array, centre_of_mass_m: Array, radius_m: float,
-    settings: EquilibriumSettings,
-) -> Array:  # fmt: skip
+def wrench_residual(scene: GraspScene, link_poses: Array, settings: EquilibriumSettings) -> Array:
     """Force that stays unbalanced when each of n hands presses with normal forces of 1 N in all.
+
+    Torques are about the object's centre of mass, and count as forces at its radius.
 
     Args:
         link_poses: (n, 9, 4, 4) links in the object's frame.
-        centre_of_mass_m: (3,) torques are about it.
-        radius_m: length that makes torques comparable to forces.
 
     Returns:
         (n,) newtons, an upper bound, 0 (balanced) to 1; 1 if nothing touches.
     """
-    return _imbalance(
-        model, grid, link_poses, np.asarray(centre_of_mass_m, dtype=np.float64), float(radius_m),
-        settings.friction, settings.cone_edges, settings.contact_m, settings.iterations,
-    )  # fmt: skip
+    return _wrench_residuals(
+        *(scene.hand, scene.field, link_poses),
+        *(scene.centre_of_mass_m, scene.radius_m),
+        *(settings.friction, settings.cone_edges, settings.contact_m, settings.iterations),
+    )
 
 
 @compiled()
-def _imbalance(
+def _wrench_residuals(
     model: HandModel, grid: Field, poses: Array, centre: Array, radius: float, friction: float,
     edges: int, contact_m: float, iterations: int,
 ) -> Array:  # fmt: skip

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from grasptypes.hand import kinematics
 from grasptypes.hand.shapes import link_meshes, surface_points
 from grasptypes.objects.distance_grid import DistanceGrid
+from grasptypes.settings.synthesis import SynthesisSettings
 from grasptypes.synthesis.fields import Fields, fields
 
 Array = NDArray[np.float64]
@@ -75,4 +76,23 @@ def hand_model(
                 for mesh in kinds
             ]
         ),
+    )
+
+
+class HandModels(NamedTuple):
+    """The hand at two resolutions."""
+
+    search: HandModel
+    """Coarse, for thousands of candidates."""
+    check: HandModel
+    """Fine, for the verdict."""
+
+
+def sample_hand(settings: SynthesisSettings) -> HandModels:
+    """The hand at the resolutions of the settings."""
+    how, reach_m = settings.hand, settings.energy.range_m
+    check_m, grid_m = how.check_spacing_m, how.grid_spacing_m
+    return HandModels(
+        hand_model(how.finger_spacing_m, how.base_spacing_m, grid_m, reach_m),
+        hand_model(check_m, check_m, grid_m, reach_m),
     )

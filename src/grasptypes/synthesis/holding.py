@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from grasptypes.hand import kinematics
-from grasptypes.objects.object_files import read_properties
+from grasptypes.settings.physics import PhysicsSettings
 
 Array = NDArray[np.float64]
 
@@ -18,62 +16,6 @@ Array = NDArray[np.float64]
 DRIVEN_BACK_RAD = 0.001
 # The joints of the three fingers within `kinematics.JOINT_NAMES`.
 BASES, TIPS = slice(2, 5), slice(5, 8)
-
-
-class PhysicsSettings(NamedTuple):
-    """How grasps are tested; the fields are keys of the `physics` section of params.yaml."""
-
-    timestep_s: float
-    solver_iterations: int
-    friction: float
-    gravity_m_s2: float
-    control_steps: int
-    """Time steps between two commands to the motors."""
-    fingertip_force_n: float
-    """Force at the fingertip up to which the motors close."""
-    passive_force_n: float
-    """Force at the fingertip that the stopped fingers withstand."""
-    closing_speed_rad_s: float
-    gear_correction: float
-    """Share of a coupled fingertip's lag that is made up for in a time step."""
-    gear_torque_nm: float
-    """Torque up to which the coupling of a finger's base and tip is held."""
-    squeeze_time_s: float
-    hold_time_s: float
-    drop_distance_m: float
-    """Movement in the hand from which an object counts as dropped."""
-    drop_rotation_rad: float
-    """The same for its rotation."""
-    shake: bool
-    """Whether gravity acts from all six sides in turn instead of along -z only."""
-
-
-@dataclass(frozen=True)
-class RigidObject:
-    """A free rigid body.
-
-    Attributes:
-        collision: OBJ with a group (`o`) for each convex part, metres, in the object's frame.
-        mass_kg: its mass.
-        centre_of_mass_m: (3,).
-        inertia_kg_m2: (3, 3) about the centre of mass, along the object's axes.
-    """
-
-    collision: Path
-    mass_kg: float
-    centre_of_mass_m: Array
-    inertia_kg_m2: Array
-
-
-def read_body(collision: str | Path, properties: str | Path) -> RigidObject:
-    """The body of an object from its files; see `object_files`."""
-    numbers = read_properties(properties)
-    return RigidObject(
-        Path(collision),
-        float(numbers["mass_kg"]),
-        np.array(numbers["centre_of_mass_m"]),
-        np.array(numbers["inertia_kg_m2"]),
-    )
 
 
 class Contact(NamedTuple):
@@ -89,7 +31,7 @@ class Contact(NamedTuple):
     """Along the normal."""
 
 
-class Held(NamedTuple):
+class HoldResult(NamedTuple):
     """What became of a grasp.
 
     With `shake`, all fields, also those "at the end of the last test", are of the test in the worst

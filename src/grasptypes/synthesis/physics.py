@@ -17,16 +17,10 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from grasptypes.hand import kinematics
+from grasptypes.objects.object_geometry import ObjectGeometry
 from grasptypes.poses import inverse
-from grasptypes.synthesis.holding import (
-    BASES,
-    TIPS,
-    Contact,
-    Held,
-    Motors,
-    PhysicsSettings,
-    RigidObject,
-)
+from grasptypes.settings.physics import PhysicsSettings
+from grasptypes.synthesis.holding import BASES, TIPS, Contact, HoldResult, Motors
 
 Array = NDArray[np.float64]
 
@@ -41,18 +35,18 @@ class Physics:
     """A physics server that tests grasps of one object. Use `physics` to get one."""
 
     def __init__(
-        self, client: int, urdf: Path, body: RigidObject, settings: PhysicsSettings
+        self, client: int, urdf: Path, geometry: ObjectGeometry, settings: PhysicsSettings
     ) -> None:
         self._client = client
         self._urdf = urdf
-        self._body = body
+        self._geometry = geometry
         self._settings = settings
         self._joints: list[int] = []
         self._gears: dict[int, int] = {}
         self.steps = 0
         """Time steps made so far, for benchmarks."""
 
-    def hold(self, T_object_hand: Array, joint_angles_rad: Array) -> Held:
+    def hold(self, T_object_hand: Array, joint_angles_rad: Array) -> HoldResult:
         """Squeeze and hold the object, in the worst of the directions asked for.
 
         Args:
@@ -60,7 +54,7 @@ class Physics:
             joint_angles_rad: (8,) angles at which the fingers touch.
         """
         directions = DIRECTIONS if self._settings.shake else DIRECTIONS[:1]
-        worst: Held | None = None
+        worst: HoldResult | None = None
         for direction in directions:
             held = self._hold_once(T_object_hand, joint_angles_rad, direction)
             if worst is None or (held.dropped, held.moved_m) > (worst.dropped, worst.moved_m):
@@ -70,7 +64,7 @@ class Physics:
         assert worst is not None
         return worst
 
-    def _hold_once(self, T_object_hand: Array, angles: Array, direction: Array) -> Held:
+    def _hold_once(self, T_object_hand: Array, angles: Array, direction: Array) -> HoldResult:
         settings, client = self._settings, self._client
         hand, thing = self._load(T_object_hand, angles)
         motors = Motors(angles, settings)
@@ -84,13 +78,15 @@ class Physics:
         for intervals in np.diff(np.linspace(0, whole, min(LOOKS, whole) + 1).astype(int)).tolist():
             self._run(hand, thing, motors, intervals)
             after = self._pose(thing)
-            moved, turned = _difference(before, after, self._body.centre_of_mass_m)
+            moved, turned = _difference(
+                before, after, np.array(self._geometry.properties.centre_of_mass_m)
+            )
             dropped = moved > settings.drop_distance_m or turned > settings.drop_rotation_rad
             if dropped:
                 break
         contacts = self._contacts(hand, thing, after)
         states = pybullet.getJointStates(hand, self._joints, physicsClientId=client)
-        return Held(
+        return HoldResult(
             dropped=dropped or not contacts,
             moved_m=moved,
             turned_rad=turned,
@@ -146,13 +142,13 @@ class Physics:
             )
 
     def _load_object(self, T_hand_object: Array) -> int:
-        body, client = self._body, self._client
-        moments, axes = np.linalg.eigh(body.inertia_kg_m2)
+        body, client = self._geometry.properties, self._client
+        moments, axes = np.linalg.eigh(np.array(body.inertia_kg_m2))
         axes = axes * np.sign(np.linalg.det(axes))
         T_object_inertial = np.eye(4)
         T_object_inertial[:3, :3], T_object_inertial[:3, 3] = axes, body.centre_of_mass_m
         shape = pybullet.createCollisionShape(
-            pybullet.GEOM_MESH, fileName=str(body.collision), physicsClientId=client
+            pybullet.GEOM_MESH, fileName=str(self._geometry.collision), physicsClientId=client
         )
         position, orientation = _position_orientation(T_object_inertial)
         thing = pybullet.createMultiBody(
@@ -255,11 +251,13 @@ class Physics:
 
 
 @contextmanager
-def physics(urdf: str | Path, body: RigidObject, settings: PhysicsSettings) -> Iterator[Physics]:
+def physics(
+    urdf: str | Path, geometry: ObjectGeometry, settings: PhysicsSettings
+) -> Iterator[Physics]:
     """A physics server for one object, in this process and without a window."""
     client = pybullet.connect(pybullet.DIRECT)
     try:
-        yield Physics(client, Path(urdf), body, settings)
+        yield Physics(client, Path(urdf), geometry, settings)
     finally:
         pybullet.disconnect(client)
 

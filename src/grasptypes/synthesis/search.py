@@ -2,116 +2,43 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
-from grasptypes.contact_maps.contact_map import ContactMap
 from grasptypes.hand import kinematics
-from grasptypes.objects.distance_grid import DistanceGrid
-from grasptypes.objects.object_files import read_properties
-from grasptypes.synthesis.candidates import CandidateSettings, Hands, Person, draw_candidates
-from grasptypes.synthesis.closing import ClosingSettings, close_fingers
+from grasptypes.settings.synthesis import (
+    RankingSettings,
+    RefinementSettings,
+    ShapeRanges,
+    SynthesisSettings,
+)
+from grasptypes.synthesis.candidates import Demonstration, HandStates, draw_candidates
+from grasptypes.synthesis.closing import close_fingers
 from grasptypes.synthesis.energy import (
     TERMS,
-    EnergySettings,
+    Closeness,
     Targets,
     closeness,
     draw_targets,
     energies,
 )
-from grasptypes.synthesis.equilibrium import EquilibriumSettings, imbalance
-from grasptypes.synthesis.fields import Field, field
-from grasptypes.synthesis.grip_shape import ShapeRanges, ShapeSettings, deviation
-from grasptypes.synthesis.hand_model import FIRST_DISTAL, FIRST_PROXIMAL, HandModel
+from grasptypes.synthesis.equilibrium import wrench_residual
+from grasptypes.synthesis.hand_model import FIRST_DISTAL, FIRST_PROXIMAL
+from grasptypes.synthesis.preshape_cost import preshape_cost
+from grasptypes.synthesis.scene import GraspScene
 
 Array = NDArray[np.float64]
 
 ALL_TERMS = (*TERMS, "imbalance", "grip_shape")
 
 
-class RefinementSettings(NamedTuple):
-    """A shrinking random search around the best candidates."""
-
-    parents: int
-    """How many of the best candidates are refined."""
-    rounds: int
-    """How often each is varied."""
-    children: int
-    """Variations of each in a round."""
-    position_sd_m: float
-    rotation_sd_rad: float
-    spread_sd_rad: float
-    shrink: float
-    """What the deviations are multiplied with after a round."""
-
-
-class RankingSettings(NamedTuple):
-    """Which grasps are tried, and in which order.
-
-    A try is a look by geometry, and a test in physics only if nothing is wrong so far: of `tries`
-    grasps at most, physics may see fewer.
-    """
-
-    tries: int
-    """How many grasps are looked at, at most."""
-    min_fingers: int
-    """Fingers that must touch."""
-    contact_m: float
-    """Distance up to which a link counts as touching."""
-    max_depth_m: float
-    """Depth, in the object or of one link in another, beyond which a candidate is not ranked."""
-    apart_m: float
-    """A grasp is tried only if it differs this much from all tried before it: the distance of
-    the palms, plus `rotation_length_m` for every radian between them or of spread."""
-    rotation_length_m: float
-
-
-class SearchSettings(NamedTuple):
-    """All that a search depends on beside the object and the person."""
-
-    candidates: CandidateSettings
-    closing: ClosingSettings
-    energy: EnergySettings
-    equilibrium: EquilibriumSettings
-    grip_shape: ShapeSettings
-    shapes: Mapping[str, ShapeRanges]
-    """What hands keep to, by grip."""
-    refinement: RefinementSettings
-    ranking: RankingSettings
-
-
-class Thing(NamedTuple):
-    """The object as a search and the look at its grasps see it."""
-
-    grid: Field
-    centre_of_mass_m: Array
-    """(3,)."""
-    radius_m: float
-    """Half of its largest extent."""
-    surface_m: Array
-    """(n, 3) points on its surface."""
-
-
-def read_thing(distance_grid: str | Path, properties: str | Path, contact_map: ContactMap) -> Thing:
-    """The object from its files (see `object_files`), with the points of one of its maps."""
-    surface = contact_map.points.astype(np.float64)
-    return Thing(
-        field(DistanceGrid.load(distance_grid)),
-        np.array(read_properties(properties)["centre_of_mass_m"]),
-        float(np.ptp(surface, axis=0).max() / 2),
-        surface,
-    )
-
-
-class Ranked(NamedTuple):
+class RankedGrasps(NamedTuple):
     """Grasps in the order of their energy, best first."""
 
-    hands: Hands
+    hands: HandStates
     terms: Array
     """(n, 7) in the order of `ALL_TERMS`."""
 
@@ -120,49 +47,82 @@ class Ranked(NamedTuple):
         """(n,) sum of the terms."""
         return self.terms.sum(axis=1)
 
-    def take(self, index: NDArray[np.int64]) -> Ranked:
+    def take(self, index: NDArray[np.int64]) -> RankedGrasps:
         """Those of an index."""
-        return Ranked(self.hands.take(index), self.terms[index])
+        return RankedGrasps(self.hands.take(index), self.terms[index])
+
+
+class CostFunction(NamedTuple):
+    """What hands in a scene cost that are to hold the object as a demonstration shows."""
+
+    scene: GraspScene
+    targets: Targets
+    ranges: ShapeRanges
+    settings: SynthesisSettings
+
+    def evaluate(self, hands: HandStates, every: bool = False) -> RankedGrasps:
+        """Energies of hands (n), infinite for those that must not be ranked, unless `every` counts.
+
+        A grasp must not be ranked if it overlaps, or touches with too few fingers.
+        """
+        scene, settings = self.scene, self.settings
+        poses = hands.T_object_hand[:, None] @ kinematics.link_poses(hands.joint_angles_rad)
+        close = closeness(scene, poses)
+        touching = close.gaps_m <= settings.ranking.contact_m
+        fingers = touching[:, FIRST_PROXIMAL:FIRST_DISTAL] | touching[:, FIRST_DISTAL:]
+        sound = fingers.sum(axis=1) >= settings.ranking.min_fingers
+        depth = np.maximum(close.penetration_m, close.self_depth_m)
+        sound &= depth <= settings.ranking.max_depth_m
+        sound |= every
+        terms = np.full((len(sound), len(ALL_TERMS)), np.inf)
+        poses, angles = poses[sound], hands.joint_angles_rad[sound]
+        close = Closeness(close.gaps_m[sound], close.self_depth_m[sound])
+        terms[sound, : len(TERMS)] = energies(
+            scene.hand, poses, close, self.targets, settings.energy
+        )
+        residual = wrench_residual(scene, poses, settings.equilibrium)
+        terms[sound, -2] = settings.equilibrium.weight * residual
+        cost = preshape_cost(scene, poses, angles, self.ranges, settings.grip_shape)
+        terms[sound, -1] = settings.grip_shape.weight * cost
+        return RankedGrasps(hands, terms)
 
 
 def search_session(
-    model: HandModel, thing: Thing, person: Person, settings: SearchSettings,
+    scene: GraspScene,
+    demonstration: Demonstration,
+    settings: SynthesisSettings,
     draw: np.random.Generator,
-) -> Ranked:  # fmt: skip
+) -> RankedGrasps:
     """The grasps of one session to be tried, at least one and at most `tries`.
 
-    Grasps that overlap or touch with too few fingers have infinite energy and are dropped. Only
-    where all candidates do are they tried, as they are, so that the session's failure has its
-    reason.
+    Grasps that must not be ranked are dropped. Only where that are all candidates, they are tried
+    as they are, so that the session's failure has its reason.
     """
-    targets = draw_targets(person.points_m, person.normals, person.contact, settings.energy, draw)
-    shape = settings.shapes[person.grip]
-    hands = draw_candidates(model, thing.grid, person, settings.candidates, settings.closing, draw)
-    found = _evaluate(model, thing, hands, targets, shape, settings)
+    targets = draw_targets(demonstration, settings.energy, draw)
+    ranges = settings.candidates.grips.named(demonstration.grip).shape
+    cost, touch_m = CostFunction(scene, targets, ranges, settings), settings.closing.touch_m
+    hands = draw_candidates(scene, demonstration, settings.candidates, touch_m, draw)
+    found = cost.evaluate(hands)
     if not np.isfinite(found.energy).any():
-        found = _evaluate(model, thing, hands, targets, shape, settings, every=True)
+        found = cost.evaluate(hands, every=True)
         return found.take(_spaced(found, settings.ranking.tries, settings.ranking))
     best = found.take(_spaced(found, settings.refinement.parents, settings.ranking))
-    best = refine(model, thing, best, targets, shape, settings, draw)
+    best = refine(cost, best, draw)
     return best.take(_spaced(best, settings.ranking.tries, settings.ranking))
 
 
-def refine(
-    model: HandModel, thing: Thing, parents: Ranked, targets: Targets, shape: ShapeRanges,
-    settings: SearchSettings, draw: np.random.Generator,
-) -> Ranked:  # fmt: skip
+def refine(cost: CostFunction, parents: RankedGrasps, draw: np.random.Generator) -> RankedGrasps:
     """Vary pose and spread, close the fingers anew, and keep what has a lower energy.
 
     All ten degrees of freedom move, yet every grasp that is looked at touches the object, which
     steps along a gradient in the joints would not ensure.
     """
-    how = settings.refinement
+    how, touch_m = cost.settings.refinement, cost.settings.closing.touch_m
     scale = 1.0
     for _ in range(how.rounds):
         hands = _varied(parents.hands, how, scale, draw)
         T, spread = hands.T_object_hand, hands.joint_angles_rad[:, 0]
-        closed = Hands(T, close_fingers(model, thing.grid, T, spread, settings.closing))
-        children = _evaluate(model, thing, closed, targets, shape, settings)
+        children = cost.evaluate(HandStates(T, close_fingers(cost.scene, T, spread, touch_m)))
         energy = np.column_stack([parents.energy, children.energy.reshape(-1, how.children)])
         winner = energy.argmin(axis=1)
         row = np.arange(len(winner))
@@ -172,34 +132,9 @@ def refine(
     return parents
 
 
-def _evaluate(
-    model: HandModel, thing: Thing, hands: Hands, targets: Targets, shape: ShapeRanges,
-    settings: SearchSettings, every: bool = False,
-) -> Ranked:  # fmt: skip
-    """Energies of hands (n), unless `every` counts infinite for those that must not be ranked."""
-    poses = hands.T_object_hand[:, None] @ kinematics.link_poses(hands.joint_angles_rad)
-    close = closeness(model, thing.grid, poses)
-    touching = close.gaps_m <= settings.ranking.contact_m
-    fingers = touching[:, FIRST_PROXIMAL:FIRST_DISTAL] | touching[:, FIRST_DISTAL:]
-    sound = fingers.sum(axis=1) >= settings.ranking.min_fingers
-    sound &= np.maximum(close.penetration_m, close.self_depth_m) <= settings.ranking.max_depth_m
-    sound |= every
-    terms = np.full((len(sound), len(ALL_TERMS)), np.inf)
-    poses = poses[sound]
-    close = type(close)(close.gaps_m[sound], close.self_depth_m[sound])
-    terms[sound, : len(TERMS)] = energies(model, poses, close, targets, settings.energy)
-    terms[sound, -2] = settings.equilibrium.weight * imbalance(
-        model, thing.grid, poses, thing.centre_of_mass_m, thing.radius_m, settings.equilibrium
-    )
-    terms[sound, -1] = settings.grip_shape.weight * deviation(
-        model, thing.grid, poses, hands.joint_angles_rad[sound], shape, settings.grip_shape
-    )
-    return Ranked(hands, terms)
-
-
 def _varied(
-    hands: Hands, how: RefinementSettings, scale: float, draw: np.random.Generator
-) -> Hands:
+    hands: HandStates, how: RefinementSettings, scale: float, draw: np.random.Generator
+) -> HandStates:
     """Random neighbours (n * children) of hands (n), those of one hand in a row."""
     T = np.repeat(hands.T_object_hand, how.children, axis=0)
     angles = np.repeat(hands.joint_angles_rad, how.children, axis=0)
@@ -210,15 +145,15 @@ def _varied(
     low, high = kinematics.DOF_LIMITS_RAD[0]
     spread = angles[:, :2] + draw.normal(0.0, scale * how.spread_sd_rad, len(T))[:, None]
     angles[:, :2] = np.clip(spread, low, high)
-    return Hands(T, angles)
+    return HandStates(T, angles)
 
 
-def _joined(first: Ranked, second: Ranked) -> Ranked:
+def _joined(first: RankedGrasps, second: RankedGrasps) -> RankedGrasps:
     hands = [np.concatenate(pair) for pair in zip(first.hands, second.hands, strict=True)]
-    return Ranked(Hands(*hands), np.concatenate([first.terms, second.terms]))
+    return RankedGrasps(HandStates(*hands), np.concatenate([first.terms, second.terms]))
 
 
-def _spaced(found: Ranked, count: int, how: RankingSettings) -> NDArray[np.int64]:
+def _spaced(found: RankedGrasps, count: int, how: RankingSettings) -> NDArray[np.int64]:
     """Indices of up to `count` grasps by energy, leaving out those too like a better one."""
     order = np.argsort(found.energy, kind="stable")
     order = order[np.isfinite(found.energy[order])]

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from grasptypes.contact_maps.affinities import COLUMNS, Hold, check_holds, read_affinities
+from grasptypes.contact_maps.affinities import COLUMNS, AffinityRow, check_rows, read_affinities
 from grasptypes.contact_maps.contact_evidence import CLASSES, GRIP_OF_TYPE
 from grasptypes.errors import InputError
 from grasptypes.labels.published import read_published
@@ -22,10 +22,12 @@ def _table(folder: Path, *rows: str) -> Path:
     return path
 
 
-def test_reads_holds_by_object_and_task(tmp_path):
+def test_reads_rows_by_object_and_task(tmp_path):
     path = _table(tmp_path, GOOD, "mug,show,*,pinch,around,,0,1,0.5,a third task")
     table = read_affinities(path, ["mug"], ["use", "show"])
-    assert table["mug", "use"] == (Hold(("handle",), "wrap", "+x", "z", 0.3, 0.7, 2.0, "to drink"),)
+    assert table["mug", "use"] == (
+        AffinityRow(("handle",), "wrap", "+x", "z", 0.3, 0.7, 2.0, "to drink"),
+    )
     assert table["mug", "show"][0].parts == ()
 
 
@@ -69,9 +71,9 @@ def test_unknown_part_and_missing_object_are_named(tmp_path):
     path = _table(tmp_path, GOOD)
     table = read_affinities(path, ["mug"], TASKS)
     with pytest.raises(InputError, match=r"part of mug and use: 'handle' is not one of wall, \*"):
-        check_holds(table["mug", "use"], ("mug", "use"), ["wall"], path)
+        check_rows(table["mug", "use"], ("mug", "use"), ["wall"], path)
     with pytest.raises(InputError, match="mug and handoff: has no row"):
-        check_holds(table.get(("mug", "handoff"), ()), ("mug", "handoff"), ["handle"], path)
+        check_rows(table.get(("mug", "handoff"), ()), ("mug", "handoff"), ["handle"], path)
 
 
 def test_rows_of_other_tasks_are_checked_and_left_out(tmp_path):
@@ -85,7 +87,7 @@ def test_our_table_knows_every_object_its_parts_and_both_tasks():
         parts = [part.name for part in build().parts]
         for task in TASKS:
             assert len(table[name, task]) >= 3
-            check_holds(table[name, task], (name, task), parts, TABLE)
+            check_rows(table[name, task], (name, task), parts, TABLE)
 
 
 @pytest.mark.skipif(

@@ -1,24 +1,29 @@
 """Contact maps of simple bodies, where a hand must lie is known."""
 
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
 import trimesh
-from tests.unit.settings import RAW
+from tests.unit.settings import PARAMS
 
-from grasptypes.contact_maps.affinities import Hold
-from grasptypes.contact_maps.contact_map import draw_session, map_contacts, sample_surface
+from grasptypes.contact_maps.affinities import AffinityRow
+from grasptypes.contact_maps.contact_map import (
+    MapTask,
+    draw_session,
+    map_contacts,
+    sample_surface,
+)
 from grasptypes.contact_maps.contact_map_files import read_contact_map, write_contact_map
 from grasptypes.errors import InputError
+from grasptypes.objects.object_files import Surface
+from grasptypes.settings.contact_maps import HandLengths
 
-ROOT = Path(__file__).parents[3]
-PARAMS = RAW["contact_maps"]
-SMALL = PARAMS | {"sessions": 4, "population": 6}
+SETTINGS = PARAMS.contact_maps
+SMALL = SETTINGS.changed(sessions=4, population=6)
 RADIUS_M, HEIGHT_M = 0.03, 0.30
 NAMES = ["lower", "upper"]
-WRAP = Hold(("upper",), "wrap", "around", "z", 0.4, 0.6, 1.0, "test")
+WRAP = AffinityRow(("upper",), "wrap", "around", "z", 0.4, 0.6, 1.0, "test")
 
 
 @pytest.fixture(scope="module")
@@ -27,11 +32,15 @@ def bottle():
     mesh = trimesh.creation.cylinder(RADIUS_M, HEIGHT_M, sections=64)
     mesh = trimesh.Trimesh(*trimesh.remesh.subdivide_to_size(mesh.vertices, mesh.faces, 0.02))
     part = (mesh.vertices[:, 2] > 0).astype(np.int16)
-    return sample_surface(mesh.vertices, mesh.faces, part, 2500, 1)
+    return sample_surface(Surface(mesh.vertices, mesh.faces, part, NAMES), 2500, 1)
 
 
-def _draw(bottle, hold, session=1, params=PARAMS):
-    return draw_session(bottle, NAMES, [hold], ("bottle", "use", session, 0), params, 1.0)
+def task(points, settings=SETTINGS, seed=0, names=NAMES):
+    return MapTask(points, names, ("bottle", "use"), seed, 1.0, settings)
+
+
+def _draw(bottle, row, session=1, settings=SETTINGS):
+    return draw_session(task(bottle, settings), [row], session)
 
 
 def test_points_are_even_and_on_the_surface(bottle):
@@ -47,7 +56,7 @@ def test_points_are_even_and_on_the_surface(bottle):
 @pytest.mark.parametrize("session", range(1, 6))
 def test_wrap_goes_around_the_held_part_a_hand_high(bottle, session):
     drawn = _draw(bottle, WRAP, session)
-    touched = bottle.points_m[drawn.contact >= PARAMS["threshold"]]
+    touched = bottle.points_m[drawn.contact >= SETTINGS.threshold]
     assert touched[:, 2].min() > -0.005
     assert 0.8 < np.ptp(touched[:, 2]) / drawn.hand.breadth_m < 1.6
     angles = np.sort(np.arctan2(touched[:, 1], touched[:, 0]))
@@ -57,7 +66,7 @@ def test_wrap_goes_around_the_held_part_a_hand_high(bottle, session):
 @pytest.mark.parametrize("session", range(1, 6))
 def test_pinch_touches_two_sides_with_fingertips(bottle, session):
     drawn = _draw(bottle, replace(WRAP, grip="pinch"), session)
-    touched = drawn.contact >= PARAMS["threshold"]
+    touched = drawn.contact >= SETTINGS.threshold
     side = bottle.normals[touched] @ drawn.placement.closing
     assert (side > 0.35).any()
     assert (side < -0.35).any()
@@ -75,23 +84,25 @@ def test_palm_stands_on_the_side_the_hold_names(bottle):
 
 
 def test_larger_hands_touch_more(bottle):
-    large = PARAMS | {"people": [{"hand_length_m": 0.22, "hand_length_sd_m": 0.0}]}
-    small = PARAMS | {"people": [{"hand_length_m": 0.15, "hand_length_sd_m": 0.0}]}
-    touched = [_draw(bottle, WRAP, 1, params).contact.sum() for params in (small, large)]
+    touched = []
+    for length_m in (0.15, 0.22):
+        people = (HandLengths(hand_length_m=length_m, hand_length_sd_m=0.0),)
+        drawn = _draw(bottle, WRAP, 1, SETTINGS.changed(people=people))
+        touched.append(drawn.contact.sum())
     assert touched[1] > 1.2 * touched[0]
 
 
 def test_holds_come_up_in_proportion_to_their_affinity(bottle):
     holds = [replace(WRAP, affinity=7.0), replace(WRAP, grip="pinch", affinity=3.0)]
-    many = PARAMS | {"sessions": 20, "population": 20}
-    drawn = map_contacts(bottle, NAMES, holds, ("bottle", "use"), 0, many, 1.0)
+    many = SETTINGS.changed(sessions=20, population=20)
+    drawn = map_contacts(task(bottle, many), holds)
     assert 13 <= (drawn.style == "power").sum() <= 15
 
 
 def test_a_session_is_the_same_whatever_is_drawn_beside_it(bottle):
-    few = map_contacts(bottle, NAMES, [WRAP], ("bottle", "use"), 0, SMALL, 1.0)
-    more = map_contacts(bottle, NAMES, [WRAP], ("bottle", "use"), 0, SMALL | {"sessions": 6}, 1.0)
-    other = map_contacts(bottle, NAMES, [WRAP], ("bottle", "use"), 1, SMALL, 1.0)
+    few = map_contacts(task(bottle, SMALL), [WRAP])
+    more = map_contacts(task(bottle, SMALL.changed(sessions=6)), [WRAP])
+    other = map_contacts(task(bottle, SMALL, 1), [WRAP])
     assert np.array_equal(few.sessions, more.sessions[:4])
     assert np.array_equal(few.probability, more.probability)
     assert not np.array_equal(few.sessions, other.sessions)
@@ -99,7 +110,7 @@ def test_a_session_is_the_same_whatever_is_drawn_beside_it(bottle):
 
 
 def test_file_round_trip_has_the_same_bytes(bottle, tmp_path):
-    drawn = map_contacts(bottle, NAMES, [WRAP], ("bottle", "use"), 0, SMALL, 1.0)
+    drawn = map_contacts(task(bottle, SMALL), [WRAP])
     write_contact_map(drawn, tmp_path / "a.npz")
     write_contact_map(read_contact_map(tmp_path / "a.npz"), tmp_path / "b.npz")
     assert (tmp_path / "a.npz").read_bytes() == (tmp_path / "b.npz").read_bytes()
@@ -114,10 +125,11 @@ def test_a_hold_that_no_hand_can_do_is_named(bottle):
 def test_rim_is_pinched_through_its_wall():
     mesh = trimesh.creation.annulus(0.07, 0.075, 0.08, sections=64)
     mesh = trimesh.Trimesh(*trimesh.remesh.subdivide_to_size(mesh.vertices, mesh.faces, 0.02))
-    points = sample_surface(mesh.vertices, mesh.faces, np.zeros(len(mesh.vertices)), 6000, 1)
-    hold = Hold((), "rim", "+z", "z", 0.9, 0.9, 1.0, "test")
-    drawn = draw_session(points, ["wall"], [hold], ("ring", "use", 1, 0), PARAMS, 1.0)
-    touched = points.points_m[drawn.contact >= PARAMS["threshold"]]
+    part = np.zeros(len(mesh.vertices), np.int16)
+    points = sample_surface(Surface(mesh.vertices, mesh.faces, part, ["wall"]), 6000, 1)
+    hold = AffinityRow((), "rim", "+z", "z", 0.9, 0.9, 1.0, "test")
+    drawn = draw_session(task(points, names=["wall"]), [hold], 1)
+    touched = points.points_m[drawn.contact >= SETTINGS.threshold]
     radius = np.hypot(touched[:, 0], touched[:, 1])
     assert radius.min() < 0.0715
     assert radius.max() > 0.0735

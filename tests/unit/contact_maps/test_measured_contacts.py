@@ -5,9 +5,9 @@ from dataclasses import fields
 import numpy as np
 import pytest
 import trimesh
-from tests.unit.settings import RAW
+from tests.unit.settings import PARAMS
 
-from grasptypes.contact_maps.contact_map import ContactMap, sample_surface
+from grasptypes.contact_maps.contact_map import ContactMap, MapTask, sample_surface
 from grasptypes.contact_maps.contact_map_files import read_contact_map, write_contact_map
 from grasptypes.contact_maps.measured_contacts import (
     map_measured_contacts,
@@ -15,8 +15,10 @@ from grasptypes.contact_maps.measured_contacts import (
     sigmoid,
 )
 from grasptypes.errors import InputError
+from grasptypes.objects.object_files import Surface
+from grasptypes.settings.contact_maps import HandProportions
 
-PARAMS = RAW["contact_maps"] | {"sessions": 4}
+SETTINGS = PARAMS.contact_maps.changed(sessions=4)
 RADIUS_M, HEIGHT_M = 0.03, 0.30
 
 
@@ -28,7 +30,12 @@ def bottle():
 
 @pytest.fixture(scope="module")
 def points(bottle):
-    return sample_surface(bottle.vertices, bottle.faces, np.zeros(len(bottle.vertices)), 2500, 1)
+    part = np.zeros(len(bottle.vertices), np.int16)
+    return sample_surface(Surface(bottle.vertices, bottle.faces, part, ["body"]), 2500, 1)
+
+
+def task(points, settings=SETTINGS, seed=0, scale=1.0):
+    return MapTask(points, ["body"], ("bottle", "use"), seed, scale, settings)
 
 
 def scan_file(path, mesh, red):
@@ -52,10 +59,9 @@ def spots(mesh):
     return np.where(distance < 0.013, 250, 20)
 
 
-def drawn(path, points, params=PARAMS, seed=0):
-    probability = read_probability(path, 1.0, points, params)
-    name = ("bottle", "use")
-    return map_measured_contacts(points, ["body"], probability, name, seed, params, 1.0, path)
+def drawn(path, points, settings=SETTINGS, seed=0):
+    asked = task(points, settings, seed)
+    return map_measured_contacts(asked, read_probability(path, 1.0, asked), path)
 
 
 def test_sigmoid_takes_the_ends_to_the_given_values_and_keeps_the_unseen():
@@ -67,7 +73,7 @@ def test_sigmoid_takes_the_ends_to_the_given_values_and_keeps_the_unseen():
 def test_probability_follows_the_nearest_vertex_and_the_unseen_is_zero(bottle, points, tmp_path):
     red = np.where(bottle.vertices[:, 2] < -0.1, 0, girdle(bottle))
     path = scan_file(tmp_path / "map.ply", bottle, red)
-    probability = read_probability(path, 1.0, points, PARAMS)
+    probability = read_probability(path, 1.0, task(points))
     z_m = points.points_m[:, 2]
     assert probability[np.abs(z_m - 0.075) < 0.04] == pytest.approx(0.95)
     assert probability[(z_m > -0.09) & (z_m < 0.02)] == pytest.approx(0.05)
@@ -77,17 +83,17 @@ def test_probability_follows_the_nearest_vertex_and_the_unseen_is_zero(bottle, p
 def test_unit_and_scale_place_the_scan(bottle, points, tmp_path):
     small = trimesh.Trimesh(bottle.vertices * 500.0, bottle.faces, process=False)
     path = scan_file(tmp_path / "map.ply", small, girdle(bottle))
-    scaled = read_probability(path, 0.001 * 2.0, points, PARAMS)
+    scaled = read_probability(path, 0.001, task(points, scale=2.0))
     path = scan_file(tmp_path / "whole.ply", bottle, girdle(bottle))
-    assert np.array_equal(scaled, read_probability(path, 1.0, points, PARAMS))
+    assert np.array_equal(scaled, read_probability(path, 1.0, task(points)))
 
 
 def test_warm_girdle_is_wrapped_where_it_is_warm(bottle, points, tmp_path):
     contact_map = drawn(scan_file(tmp_path / "map.ply", bottle, girdle(bottle)), points)
     assert (contact_map.style == "power").sum() >= 3
     assert contact_map.centre_m[:, 2] == pytest.approx(0.075, abs=0.05)
-    touched = contact_map.sessions >= PARAMS["threshold"]
-    warm = contact_map.probability >= PARAMS["threshold"]
+    touched = contact_map.sessions >= SETTINGS.threshold
+    warm = contact_map.probability >= SETTINGS.threshold
     assert (touched & warm).sum() > 0.7 * touched.sum()
     assert touched[:, warm].mean() > 0.35
 
@@ -100,10 +106,10 @@ def test_warm_spots_are_held_with_fingertips(bottle, points, tmp_path):
 
 def test_arrays_are_those_of_every_map_and_come_back_the_same(bottle, points, tmp_path):
     path = scan_file(tmp_path / "map.ply", bottle, girdle(bottle))
-    contact_map = drawn(path, points, PARAMS | {"sessions": 2})
-    more = drawn(path, points, PARAMS | {"sessions": 3})
+    contact_map = drawn(path, points, SETTINGS.changed(sessions=2))
+    more = drawn(path, points, SETTINGS.changed(sessions=3))
     assert np.array_equal(contact_map.sessions, more.sessions[:2])
-    other = drawn(path, points, PARAMS | {"sessions": 2}, seed=1)
+    other = drawn(path, points, SETTINGS.changed(sessions=2), seed=1)
     assert not np.array_equal(contact_map.sessions, other.sessions)
     write_contact_map(contact_map, tmp_path / "map.npz")
     back = read_contact_map(tmp_path / "map.npz")
@@ -123,13 +129,14 @@ def test_arrays_are_those_of_every_map_and_come_back_the_same(bottle, points, tm
 def test_what_cannot_be_used_is_refused_in_one_line(bottle, points, tmp_path, metres, red, reason):
     path = scan_file(tmp_path / "map.ply", bottle, red(bottle))
     with pytest.raises(InputError, match=reason) as raised:
-        read_probability(path, metres, points, PARAMS)
+        read_probability(path, metres, task(points))
     assert str(raised.value).startswith(f"{path}: ")
     assert "\n" not in str(raised.value)
 
 
 def test_what_no_hand_can_hold_is_refused_in_one_line(bottle, points, tmp_path):
     path = scan_file(tmp_path / "map.ply", bottle, girdle(bottle))
-    tiny = PARAMS | {"hand": dict.fromkeys(PARAMS["hand"], 1e-4)}
+    proportions = dict.fromkeys(HandProportions.model_fields, 1e-4)
+    tiny = SETTINGS.changed(hand=HandProportions(**proportions))
     with pytest.raises(InputError, match=r"map\.ply: no hand can hold bottle"):
         drawn(path, points, tiny)

@@ -5,16 +5,17 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import trimesh
-from tests.unit.settings import RAW
+from tests.unit.settings import PARAMS
 
-from grasptypes.contact_maps.affinities import Hold
-from grasptypes.contact_maps.handprint import Hand, Surface, handprint
+from grasptypes.contact_maps.affinities import AffinityRow
+from grasptypes.contact_maps.handprint import HeldSurface, HumanHand, handprint
 from grasptypes.contact_maps.placement import place_hand
+from grasptypes.settings.contact_maps import PlacementSettings
 
-PARAMS = RAW["contact_maps"]
-HAND = Hand.of_length(0.19, PARAMS["hand"])
-STILL = {"tilt_sd_rad": 0.0, "roll_sd_rad": 0.0, "slice_m": 0.01, "depth_m": 0.01}
-HOLD = Hold((), "wrap", "around", "z", 0.25, 0.25, 1.0, "test")
+SETTINGS = PARAMS.contact_maps
+HAND = HumanHand.of_length(0.19, SETTINGS.hand)
+STILL = PlacementSettings(tilt_sd_rad=0.0, roll_sd_rad=0.0, slice_m=0.01, depth_m=0.01)
+HOLD = AffinityRow((), "wrap", "around", "z", 0.25, 0.25, 1.0, "test")
 GRIPS = ["wrap", "enclose", "tripod", "pinch", "rim"]
 
 
@@ -24,15 +25,15 @@ def stick():
     mesh = trimesh.creation.cylinder(0.015, 0.2, sections=48)
     points, faces = trimesh.sample.sample_surface(mesh, 6000, seed=0)
     points = points + [0, 0, 0.1]
-    return Surface(points, mesh.face_normals[faces], points[:, 2] < 0.18)
+    return HeldSurface(points, mesh.face_normals[faces], points[:, 2] < 0.18)
 
 
 @pytest.mark.parametrize("grip", GRIPS)
 @pytest.mark.parametrize("seed", range(3))
 def test_palm_side_axis_and_closing_stand_at_right_angles(stick, grip, seed):
-    params = STILL | {"tilt_sd_rad": 0.2, "roll_sd_rad": 0.2}
+    settings = STILL.changed(tilt_sd_rad=0.2, roll_sd_rad=0.2)
     place, height = place_hand(
-        stick, replace(HOLD, grip=grip), HAND, params, np.random.default_rng(seed)
+        stick, replace(HOLD, grip=grip), HAND, settings, np.random.default_rng(seed)
     )
     frame = np.array([place.palm_side, place.axis, place.closing])
     np.testing.assert_allclose(frame @ frame.T, np.eye(3), atol=1e-9)
@@ -66,7 +67,7 @@ def test_a_hand_touches_only_what_it_may_and_near_its_centre(stick, grip):
 
 
 def test_a_hand_is_as_large_as_its_length_says():
-    small, large = (Hand.of_length(length_m, PARAMS["hand"]) for length_m in (0.1, 0.2))
+    small, large = (HumanHand.of_length(length_m, SETTINGS.hand) for length_m in (0.1, 0.2))
     assert large.span_m == pytest.approx(2 * small.span_m)
     offsets = large.finger_offsets_m(3)
     assert offsets.sum() == pytest.approx(0.0)

@@ -9,16 +9,18 @@ from grasptypes.labels.contacts import (
     DISTAL_LINKS,
     FINGER_LINKS,
     PALM,
-    ContactSettings,
     MeshDistance,
     closing_directions,
     find_contacts,
     unit,
 )
 from grasptypes.objects.distance_grid import DistanceGrid
+from grasptypes.settings.grasp_types import ContactSettings
 
 UPRIGHT = np.eye(3)
-SETTINGS = ContactSettings(0.006, 0.002, 0.025, 3.0)
+SETTINGS = ContactSettings(
+    surface_spacing_m=0.006, patch_depth_m=0.002, reach_m=0.025, closing_weight=3.0
+)
 
 
 class Ball:

@@ -6,14 +6,17 @@ import pytest
 
 from grasptypes.errors import InputError
 from grasptypes.hand import configuration, kinematics
-from grasptypes.labels.contacts import ContactSettings
 from grasptypes.labels.dataset import DATASET_SCHEMA, dataset_table, label_grasps, sample_table
-from grasptypes.labels.grasp_type import Thresholds
 from grasptypes.labels.published import read_published
 from grasptypes.labels.samples import SAMPLE_SCHEMA
+from grasptypes.settings.grasp_types import ContactSettings, Thresholds
 
-CONTACTS = ContactSettings(0.008, 0.002, 0.025, 3.0)
-THRESHOLDS = Thresholds(0.019, 0.047, 0.052, 0.083)
+CONTACTS = ContactSettings(
+    surface_spacing_m=0.008, patch_depth_m=0.002, reach_m=0.025, closing_weight=3.0
+)
+THRESHOLDS = Thresholds(
+    palm_gap_m=0.019, small_diameter_m=0.047, sideways_share=0.052, large_span_m=0.083
+)
 
 
 class Ball:

@@ -8,16 +8,19 @@ from grasptypes.labels.contacts import DISTAL_LINKS, FINGER_LINKS, PALM, Contact
 from grasptypes.labels.grasp_type import (
     GRASP_TYPES,
     Measures,
-    Thresholds,
     classify,
     enclosed_diameters,
     explain,
     fingertip_span,
     measure,
+    measure_limits,
     sideways_share,
 )
+from grasptypes.settings.grasp_types import Thresholds
 
-THRESHOLDS = Thresholds(0.020, 0.050, 0.05, 0.080)
+THRESHOLDS = Thresholds(
+    palm_gap_m=0.020, small_diameter_m=0.050, sideways_share=0.05, large_span_m=0.080
+)
 # A wide medium wrap: every other type is one change away.
 WRAP = {
     "palm_gap_m": 0.0,
@@ -59,7 +62,9 @@ def test_branch(changes, expected):
 
 def test_classify_agrees_with_explain():
     draw = np.random.default_rng(0)
-    measures = Measures(*(draw.uniform(0, 2, 300) * limit for limit in THRESHOLDS))
+    measures = Measures(
+        *(draw.uniform(0, 2, 300) * limit for limit in measure_limits(THRESHOLDS).values())
+    )
     names = [GRASP_TYPES[index] for index in classify(measures, THRESHOLDS)]
     assert names == [one.grasp_type for one in explain(measures, THRESHOLDS)]
     assert set(names) == set(GRASP_TYPES[:-1])

@@ -3,27 +3,13 @@
 import numpy as np
 import pandas as pd
 
-from grasptypes.labels.grasp_type import GRASP_TYPES, Measures, Thresholds, classify
-from grasptypes.labels.label_tree import TREE, Branch, draw_label_tree, leaves, typical_grasps
+from grasptypes.labels.grasp_type import leaves
+from grasptypes.labels.label_tree import draw_label_tree, typical_grasps
+from grasptypes.settings.grasp_types import Thresholds
 
-THRESHOLDS = Thresholds(0.02, 0.05, 0.05, 0.08)
-FIELDS = dict(zip(Thresholds._fields, Measures._fields, strict=True))
-
-
-def test_the_drawn_tree_gives_every_grasp_the_type_of_the_rule() -> None:
-    rng = np.random.default_rng(0)
-    measures = Measures(*(rng.uniform(0.0, 2.0, 200) * limit for limit in THRESHOLDS))
-    expected = [GRASP_TYPES[index] for index in classify(measures, THRESHOLDS)]
-    found = []
-    for number in range(200):
-        branch: Branch | str = TREE
-        while isinstance(branch, Branch):
-            value = getattr(measures, FIELDS[branch.measure])[number]
-            above = value > getattr(THRESHOLDS, branch.measure)
-            branch = branch.above if above else branch.below
-        found.append(branch)
-    assert found == expected
-    assert set(found) == set(leaves()) == set(GRASP_TYPES[:-1])
+THRESHOLDS = Thresholds(
+    palm_gap_m=0.02, small_diameter_m=0.05, sideways_share=0.05, large_span_m=0.08
+)
 
 
 def test_branches_count_what_lies_below_them() -> None:

@@ -21,7 +21,7 @@ from grasptypes.planning.plan_comparison import (
 )
 from grasptypes.planning.planner import Planned, Workshop
 from grasptypes.planning.unseen_types import unseen_types
-from grasptypes.predictors.problem import Problem
+from grasptypes.predictors.problem import LearningProblem
 
 TYPES = {PREDICTED: ["Precision"], LABELLED: ["Small Wrap", "Large Wrap"]}
 
@@ -122,7 +122,7 @@ def test_the_error_of_a_saving_is_that_of_a_mean_over_objects():
 
 
 def test_every_object_left_out_gets_types_for_every_task():
-    problem = Problem(
+    problem = LearningProblem(
         "simulated", "task_vector", TASKS, examples("task_vector"), RECIPE, None, None
     )
     found = unseen_types(problem, seeds=1, seed=0)

@@ -11,7 +11,7 @@ from grasptypes.files import write_bytes, zip_bytes
 from grasptypes.predictors.backbone import KINDS, untrained_backbone
 from grasptypes.predictors.features import encodings, extract, read_pictures, shift_colours
 
-TASKS = {"use": {"colour_shift": 10}, "handoff": {"colour_shift": -10}, "show": {"colour_shift": 5}}
+TASKS = {"use": 10, "handoff": -10, "show": 5}
 
 
 def png(picture):

@@ -16,7 +16,7 @@ from grasptypes.predictors.learning_inputs import (
 )
 from grasptypes.predictors.weights import WEIGHTS_VARIABLE, find_weights
 
-TASKS = {"use": {"colour_shift": 10}, "handoff": {"colour_shift": -10}}
+TASKS = {"use": 10, "handoff": -10}
 
 
 def test_the_record_knows_the_weights_but_not_where_they_lie(tmp_path, monkeypatch):

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from scipy.special import softmax
 
 from grasptypes.predictors.metrics import (
     angular_similarity,
@@ -88,7 +89,7 @@ def test_many_samples_are_measured_like_one(measure):
 
 def test_softmax_of_many_samples_is_that_of_each():
     logits = np.random.default_rng(0).normal(0, 3, (4, 3))
-    for row, probabilities in zip(logits, softmax(logits), strict=True):
+    for row, probabilities in zip(logits, softmax(logits, axis=-1), strict=True):
         np.testing.assert_allclose(probabilities, np.exp(row) / np.exp(row).sum())
 
 

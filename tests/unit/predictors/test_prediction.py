@@ -8,12 +8,12 @@ import torch
 import trimesh
 from learning import small_checkout
 from PIL import Image
+from scipy.special import softmax
 
 from grasptypes.__main__ import main
 from grasptypes.errors import InputError
 from grasptypes.labels.samples import TYPES
 from grasptypes.predictors import prediction
-from grasptypes.predictors.metrics import softmax
 from grasptypes.predictors.prediction import Answer, predictor_paths
 from grasptypes.predictors.prediction_pictures import draw_answers, montage
 from grasptypes.predictors.predictor_files import load_predictor, read_card
@@ -61,7 +61,9 @@ def test_the_command_says_what_the_predictor_says(predict, checkout):
     predictor = load_predictor(folder / "predictor.safetensors", folder / "predictor.json", weights)
     logits = predictor.logits(PICTURE[None], "wash")[0]
     (answer,) = said["answers"]
-    np.testing.assert_allclose(list(answer["probability"].values()), softmax(logits), atol=1e-6)
+    np.testing.assert_allclose(
+        list(answer["probability"].values()), softmax(logits, axis=-1), atol=1e-6
+    )
     assert answer["chosen"] == [t for t, yes in zip(TYPES, logits > 0, strict=True) if yes]
     other = json.loads(predict("--image", "photo.png", "--task", "use", "--json")[0])
     assert other["answers"] != said["answers"]

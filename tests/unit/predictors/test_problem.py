@@ -51,9 +51,7 @@ def test_the_card_tells_what_the_predictor_needs_to_be_used(files):
     card = problem.card(Architecture(24, 0, (8, 8, 8), 6), "bf16")
     assert (card.model, card.labels, card.finetune) == ("task_in_image", "published", "none")
     assert card.tasks == tuple(learning.TASKS)
-    assert card.colour_shifts == {
-        task: entry["colour_shift"] for task, entry in learning.TASKS.items()
-    }
+    assert card.colour_shifts == dict(learning.TASKS)
     assert card.input_px == 32
     assert card.weights.startswith("random.pth")
     assert card.precision == "bf16"

@@ -12,8 +12,13 @@ from grasptypes.errors import InputError
 from grasptypes.labels.samples import TYPES
 from grasptypes.predictors.backbone import KINDS, untrained_backbone
 from grasptypes.predictors.examples import assemble
-from grasptypes.predictors.predictor import VARIANTS, Architecture, Heads
-from grasptypes.predictors.predictor_files import Card, load_predictor, read_card, write_predictor
+from grasptypes.predictors.predictor import VARIANTS, Architecture, BatchedMLP
+from grasptypes.predictors.predictor_files import (
+    ModelCard,
+    load_predictor,
+    read_card,
+    write_predictor,
+)
 from grasptypes.predictors.protocol import Recipe, recipe_of, train_final, try_splits
 from grasptypes.predictors.scoring import CURVE_SCHEMA, PREDICTION_SCHEMA
 from grasptypes.predictors.training import Member, members_by_group
@@ -39,7 +44,7 @@ def weights(tmp_path_factory):
 
 def pictures(model):
     """Grey pictures, as bright as their object's number and their task's shift."""
-    tasks = {task: entry["colour_shift"] for task, entry in learning.TASKS.items()}
+    tasks = dict(learning.TASKS)
     inputs = {
         name: {
             encoding: np.full((20, 32, 32, 3), 60 + 40 * i + shift, dtype=np.uint8)
@@ -51,8 +56,8 @@ def pictures(model):
 
 
 def card(architecture, weights, model="task_vector", finetune="none"):
-    shifts = {task: entry["colour_shift"] for task, entry in learning.TASKS.items()}
-    return Card(
+    shifts = dict(learning.TASKS)
+    return ModelCard(
         model,
         "simulated",
         TYPES,
@@ -129,7 +134,7 @@ def test_a_fine_tuned_predictor_survives_the_disk(weights, tmp_path):
 def test_a_predictor_from_the_disk_answers_as_the_one_that_was_trained(weights, tmp_path, model):
     tasks = 3 if model == "task_vector" else 0
     sizes = learning.SCHEDULE.hidden
-    heads = Heads(
+    heads = BatchedMLP(
         Architecture(KINDS["mobilenet_v2"].features, tasks, sizes, len(TYPES)), [("a",)]
     ).eval()
     files = tmp_path / "predictor.safetensors", tmp_path / "predictor.json"
@@ -145,7 +150,9 @@ def test_a_predictor_from_the_disk_answers_as_the_one_that_was_trained(weights, 
 
 
 def test_other_weights_and_damaged_files_are_refused(weights, tmp_path):
-    heads = Heads(Architecture(KINDS["mobilenet_v2"].features, 0, (4, 4, 4), len(TYPES)), [("a",)])
+    heads = BatchedMLP(
+        Architecture(KINDS["mobilenet_v2"].features, 0, (4, 4, 4), len(TYPES)), [("a",)]
+    )
     files = tmp_path / "predictor.safetensors", tmp_path / "predictor.json"
     write_predictor(heads, None, card(heads.architecture, weights, "no_task"), *files)
     with pytest.raises(InputError, match="trained on mobilenet_v2"):

@@ -1,23 +1,22 @@
-"""Candidates come the person's way or along the normals, and keep out of the object."""
+"""Candidates come the shown's way or along the normals, and keep out of the object."""
 
 from dataclasses import replace
 
 import numpy as np
-from synthesis_cases import PARAMS, ball_grid, ball_person, model
+from synthesis_cases import TOUCH_M, ball_shown, scene_of
+from tests.unit.settings import PARAMS
 
 from grasptypes.hand import kinematics
-from grasptypes.synthesis.candidates import CandidateSettings, draw_candidates, frames
-from grasptypes.synthesis.closing import ClosingSettings
+from grasptypes.synthesis.candidates import draw_candidates, frames
 from grasptypes.synthesis.energy import closeness
 
-SETTINGS = CandidateSettings(**PARAMS["synthesis"]["candidates"])._replace(number=120)
-CLOSING = ClosingSettings(**PARAMS["synthesis"]["closing"])
+SETTINGS = PARAMS.synthesis.candidates
 
 
-def drawn(person, **changes):
-    settings = SETTINGS._replace(**changes)
+def drawn(shown, **changes):
+    settings = SETTINGS.changed(**changes)
     draw = np.random.default_rng(3)
-    return draw_candidates(model(), ball_grid(), person, settings, CLOSING, draw)
+    return draw_candidates(scene_of(), shown, settings, TOUCH_M, draw)
 
 
 def test_frames_are_rotations_that_look_along_the_approach() -> None:
@@ -31,24 +30,24 @@ def test_frames_are_rotations_that_look_along_the_approach() -> None:
 
 
 def test_candidates_keep_out_of_the_object_and_within_limits() -> None:
-    hands = drawn(ball_person())
+    hands = drawn(ball_shown())
     poses = hands.T_object_hand[:, None] @ kinematics.link_poses(hands.joint_angles_rad)
     # Where the grid interpolates, a distance can be too large by some micrometres.
-    assert closeness(model(), ball_grid(), poses).penetration_m.max() < 1e-5
+    assert closeness(scene_of(), poses).penetration_m.max() < 1e-5
     limits = kinematics.JOINT_LIMITS_RAD
     assert not kinematics.beyond_limits(hands.joint_angles_rad, limits, 1e-9).any()
 
 
 def test_followers_come_the_persons_way() -> None:
-    person = ball_person()
-    hands = drawn(person, follow_share=1.0)
-    assert np.median(hands.T_object_hand[:, :3, 2] @ person.approach) > 0.95
-    fingers = np.abs(hands.T_object_hand[:, :3, 1] @ person.closing)
+    shown = ball_shown()
+    hands = drawn(shown, follow_share=1.0)
+    assert np.median(hands.T_object_hand[:, :3, 2] @ shown.approach) > 0.95
+    fingers = np.abs(hands.T_object_hand[:, :3, 1] @ shown.closing)
     assert np.median(fingers) > 0.95
 
 
 def test_the_others_come_to_where_the_person_touched() -> None:
-    hands = drawn(ball_person(), follow_share=0.0)
+    hands = drawn(ball_shown(), follow_share=0.0)
     above = hands.T_object_hand[:, 2, 3] > -0.02
     assert above.mean() > 0.9
     assert (hands.T_object_hand[:, 2, 2] < 0.3).mean() > 0.9
@@ -56,7 +55,7 @@ def test_the_others_come_to_where_the_person_touched() -> None:
 
 def test_precision_grips_keep_the_palm_away() -> None:
     def distance(grip):
-        return np.linalg.norm(drawn(ball_person(grip)).T_object_hand[:, :3, 3], axis=1)
+        return np.linalg.norm(drawn(ball_shown(grip)).T_object_hand[:, :3, 3], axis=1)
 
     assert np.median(distance("tripod")) > np.median(distance("enclose")) + 0.01
     assert distance("pinch").min() > 0.03
@@ -64,13 +63,13 @@ def test_precision_grips_keep_the_palm_away() -> None:
 
 def test_hands_start_before_the_object_however_long_it_is() -> None:
     """A rod along the approach, longer than any distance at which hands start."""
-    person = ball_person()
-    rod = np.outer(np.linspace(-1.0, 0.0, 50), person.approach) + person.points_m[:50]
+    shown = ball_shown()
+    rod = np.outer(np.linspace(-1.0, 0.0, 50), shown.approach) + shown.points_m[:50]
     long = replace(
-        person,
-        points_m=np.vstack([person.points_m, rod]),
-        normals=np.vstack([person.normals, person.normals[:50]]),
-        contact=np.concatenate([person.contact, np.zeros(50)]),
+        shown,
+        points_m=np.vstack([shown.points_m, rod]),
+        normals=np.vstack([shown.normals, shown.normals[:50]]),
+        contact=np.concatenate([shown.contact, np.zeros(50)]),
     )
-    short, far = drawn(person, follow_share=1.0), drawn(long, follow_share=1.0)
+    short, far = drawn(shown, follow_share=1.0), drawn(long, follow_share=1.0)
     np.testing.assert_allclose(far.T_object_hand, short.T_object_hand, atol=2e-3)

@@ -2,30 +2,25 @@
 
 import numpy as np
 import pytest
-import trimesh
-from synthesis_cases import RADIUS_M, ball_grid, model, palm_at
+from synthesis_cases import RADIUS_M, TOUCH_M, palm_at, scene_of
 
 from grasptypes.hand import kinematics
-from grasptypes.objects.distance_grid import DistanceGrid
-from grasptypes.synthesis.closing import ClosingSettings, close_fingers, slide_in
+from grasptypes.synthesis.closing import close_fingers, slide_in
 from grasptypes.synthesis.energy import closeness
-from grasptypes.synthesis.fields import field
-
-TOUCH = ClosingSettings(touch_m=0.0005)
 
 
-def gaps(grid, T, angles):
+def gaps(T, angles, scene=None):
     poses = T[:, None] @ kinematics.link_poses(angles)
-    return closeness(model(), grid, poses).gaps_m
+    return closeness(scene or scene_of(), poses).gaps_m
 
 
 def test_palm_slides_up_to_the_ball_and_no_further() -> None:
-    moved = slide_in(model(), ball_grid(), palm_at(0.25), np.zeros(1), np.array([0.3]), TOUCH)
+    moved = slide_in(scene_of(), palm_at(0.25), np.zeros(1), np.array([0.3]), TOUCH_M)
     assert moved[0] == pytest.approx(0.25 - RADIUS_M, abs=0.002)
 
 
 def test_hand_goes_its_whole_way_if_nothing_stops_it() -> None:
-    moved = slide_in(model(), ball_grid(), palm_at(0.25), np.zeros(1), np.array([0.1]), TOUCH)
+    moved = slide_in(scene_of(), palm_at(0.25), np.zeros(1), np.array([0.1]), TOUCH_M)
     assert moved[0] == pytest.approx(0.1)
 
 
@@ -33,31 +28,30 @@ def test_hand_goes_its_whole_way_if_nothing_stops_it() -> None:
 @pytest.mark.parametrize("height", [0.035, 0.07, 0.1])
 def test_every_finger_ends_at_the_ball_or_at_its_limit_without_passing_it(spread, height) -> None:
     T = palm_at(height)
-    angles = close_fingers(model(), ball_grid(), T, np.array([spread]), TOUCH)
+    angles = close_fingers(scene_of(), T, np.array([spread]), TOUCH_M)
     assert not kinematics.beyond_limits(angles, kinematics.JOINT_LIMITS_RAD, 1e-9).any()
-    gap = gaps(ball_grid(), T, angles)[0]
+    gap = gaps(T, angles)[0]
     assert gap.min() > -1e-6
     for finger in range(3):
-        touches = min(gap[3 + finger], gap[6 + finger]) <= TOUCH.touch_m
+        touches = min(gap[3 + finger], gap[6 + finger]) <= TOUCH_M
         at_limit = angles[0, 5 + finger] >= kinematics.JOINT_LIMITS_RAD[5, 1] - 1e-6
         assert touches or at_limit
 
 
 def test_free_fingers_close_to_their_limits() -> None:
-    angles = close_fingers(model(), ball_grid(), palm_at(5.0), np.zeros(1), TOUCH)[0]
+    angles = close_fingers(scene_of(), palm_at(5.0), np.zeros(1), TOUCH_M)[0]
     np.testing.assert_allclose(angles[2:], kinematics.JOINT_LIMITS_RAD[2:, 1], atol=1e-6)
 
 
 def test_finger_stopped_at_its_tip_stays_coupled() -> None:
-    angles = close_fingers(model(), ball_grid(), palm_at(0.11), np.zeros(1), TOUCH)[0]
+    angles = close_fingers(scene_of(), palm_at(0.11), np.zeros(1), TOUCH_M)[0]
     np.testing.assert_allclose(angles[5:], angles[2:5] * kinematics.DISTAL_RATIO)
 
 
 def test_finger_stopped_at_its_base_goes_on_with_its_tip() -> None:
-    box = trimesh.creation.box((0.2, 0.05, 0.05))
-    grid = field(DistanceGrid.from_mesh(box.vertices, box.faces, 0.002, 0.02))
+    box = scene_of("box")
     T = palm_at(0.026)
-    angles = close_fingers(model(), grid, T, np.zeros(1), TOUCH)[0]
+    angles = close_fingers(box, T, np.zeros(1), TOUCH_M)[0]
     lead = angles[5:] - angles[2:5] * kinematics.DISTAL_RATIO
     assert np.all(lead > 0.05)
-    assert gaps(grid, T, angles[None])[0, 3:6].max() <= TOUCH.touch_m
+    assert gaps(T, angles[None], box)[0, 3:6].max() <= TOUCH_M

@@ -1,39 +1,41 @@
 """Each term of the energy does what ContactGrasp's does."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
-from synthesis_cases import PARAMS, ball_grid, ball_person, model, palm_at
+from synthesis_cases import TOUCH_M, ball_shown, palm_at, scene_of
+from tests.unit.settings import PARAMS
 
 from grasptypes.hand import kinematics
-from grasptypes.synthesis.closing import ClosingSettings, close_fingers
+from grasptypes.synthesis.closing import close_fingers
 from grasptypes.synthesis.energy import (
     TERMS,
-    EnergySettings,
     Targets,
     closeness,
     draw_targets,
     energies,
 )
 
-SETTINGS = EnergySettings(**PARAMS["synthesis"]["energy"])
+SETTINGS = PARAMS.synthesis.energy
 
 
 def posed(heights, angles=None):
     T = np.concatenate([palm_at(height) for height in heights])
     spread = np.full(len(T), 1.0)
     if angles is None:
-        angles = close_fingers(model(), ball_grid(), T, spread, ClosingSettings(5e-4))
+        angles = close_fingers(scene_of(), T, spread, TOUCH_M)
     return T[:, None] @ kinematics.link_poses(angles)
 
 
 def terms(poses, targets):
-    close = closeness(model(), ball_grid(), poses)
-    found = energies(model(), poses, close, targets, SETTINGS)
+    close = closeness(scene_of(), poses)
+    found = energies(scene_of().hand, poses, close, targets, SETTINGS)
     return dict(zip(TERMS, found.T, strict=True))
 
 
 def targets(attracting):
-    person = ball_person()
+    person = ball_shown()
     return Targets(person.points_m, person.normals, attracting)
 
 
@@ -76,32 +78,27 @@ def test_thumb_term_is_finger_3_s_distance_also_where_another_link_is_nearer() -
 
 def test_penetration_is_the_depth_of_the_deepest_point() -> None:
     poses = posed([0.025], np.zeros((1, 8)))
-    assert closeness(model(), ball_grid(), poses).penetration_m[0] == pytest.approx(0.005, abs=5e-4)
+    assert closeness(scene_of(), poses).penetration_m[0] == pytest.approx(0.005, abs=5e-4)
     assert terms(poses, targets(600))["penetration"][0] == pytest.approx(0.5, abs=0.05)
 
 
 def test_fingers_that_cross_collide_and_an_open_hand_does_not() -> None:
     crossed = kinematics.couple(np.radians([[90.0, 110.0, 110.0, 0.0]]))
-    assert closeness(model(), ball_grid(), posed([5.0], crossed)).self_depth_m[0] > 0.003
+    assert closeness(scene_of(), posed([5.0], crossed)).self_depth_m[0] > 0.003
     for spread in (0, 45, 90, 180):
         opened = kinematics.couple(np.radians([[spread, 0.0, 0.0, 0.0]]))
-        assert closeness(model(), ball_grid(), posed([5.0], opened)).self_depth_m[0] < 1e-3
+        assert closeness(scene_of(), posed([5.0], opened)).self_depth_m[0] < 1e-3
 
 
 def test_targets_are_drawn_from_touched_and_untouched_points() -> None:
-    person = ball_person()
-    drawn = draw_targets(
-        person.points_m, person.normals, person.contact, SETTINGS, np.random.default_rng(0)
-    )
+    drawn = draw_targets(ball_shown(), SETTINGS, np.random.default_rng(0))
     assert drawn.attracting == SETTINGS.attraction_points
     assert np.all(drawn.points[: drawn.attracting, 2] > 0)
     assert np.all(drawn.points[drawn.attracting :, 2] <= 0)
 
 
 def test_weak_contact_still_has_its_strongest_points() -> None:
-    person = ball_person()
-    contact = 0.1 * person.contact
-    drawn = draw_targets(
-        person.points_m, person.normals, contact, SETTINGS, np.random.default_rng(0)
-    )
+    shown = ball_shown()
+    weak = replace(shown, contact=0.1 * shown.contact)
+    drawn = draw_targets(weak, SETTINGS, np.random.default_rng(0))
     assert drawn.attracting > 0

@@ -2,13 +2,14 @@
 
 import numpy as np
 import pytest
-from synthesis_cases import PARAMS, RADIUS_M, ball_grid, model, palm_at
+from synthesis_cases import TOUCH_M, palm_at, scene_of
+from tests.unit.settings import PARAMS
 
 from grasptypes.hand import kinematics
-from grasptypes.synthesis.closing import ClosingSettings, close_fingers
-from grasptypes.synthesis.equilibrium import EquilibriumSettings, _least_norm, imbalance
+from grasptypes.synthesis.closing import close_fingers
+from grasptypes.synthesis.equilibrium import _least_norm, wrench_residual
 
-SETTINGS = EquilibriumSettings(**PARAMS["synthesis"]["equilibrium"])
+SETTINGS = PARAMS.synthesis.equilibrium
 
 
 def test_nearest_point_of_a_hull() -> None:
@@ -19,12 +20,12 @@ def test_nearest_point_of_a_hull() -> None:
 
 def rest(angles, T):
     poses = T[:, None] @ kinematics.link_poses(angles)
-    return imbalance(model(), ball_grid(), poses, np.zeros(3), RADIUS_M, SETTINGS)[0]
+    return wrench_residual(scene_of(), poses, SETTINGS)[0]
 
 
 def test_opposed_fingers_balance_and_one_alone_does_not() -> None:
     T = palm_at(0.1)
-    closed = close_fingers(model(), ball_grid(), T, np.array([1.0]), ClosingSettings(5e-4))
+    closed = close_fingers(scene_of(), T, np.array([1.0]), TOUCH_M)
     alone = closed.copy()
     alone[:, [2, 3, 5, 6]] = 0.0
     assert rest(closed, T) < 0.15

@@ -2,7 +2,7 @@
 
 import numpy as np
 import trimesh
-from synthesis_cases import RADIUS_M, ball, ball_grid
+from synthesis_cases import RADIUS_M, ball, scene_of
 
 from grasptypes.objects.distance_grid import DistanceGrid
 from grasptypes.synthesis.fields import distance_in, distances, fields, gradient
@@ -12,20 +12,22 @@ def test_same_as_the_grid_within_its_box() -> None:
     mesh = ball()
     grid = DistanceGrid.from_mesh(mesh.vertices, mesh.faces, 0.002, 0.02)
     points = np.random.default_rng(0).uniform(-0.045, 0.045, (500, 3))
-    np.testing.assert_allclose(distances(ball_grid(), points), grid.distance(points), atol=1e-9)
+    np.testing.assert_allclose(
+        distances(scene_of().field, points), grid.distance(points), atol=1e-9
+    )
 
 
 def test_never_more_than_the_distance_outside_of_the_box() -> None:
     points = np.random.default_rng(0).uniform(-0.4, 0.4, (500, 3))
     exact = np.linalg.norm(points, axis=1) - RADIUS_M
-    found = distances(ball_grid(), points)
+    found = distances(scene_of().field, points)
     assert np.all(found <= exact + 5e-4)
     assert np.all(found[exact > 0.05] > 0.6 * exact[exact > 0.05])
 
 
 def test_gradient_points_away_from_the_object() -> None:
     point = np.array([0.02, -0.01, 0.02])
-    assert np.dot(gradient(ball_grid(), *point), point / np.linalg.norm(point)) > 0.999
+    assert np.dot(gradient(scene_of().field, *point), point / np.linalg.norm(point)) > 0.999
 
 
 def test_packed_grids_keep_their_own_distances() -> None:

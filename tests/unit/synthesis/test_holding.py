@@ -1,12 +1,12 @@
 """Motors close until they take their torque, and stay within the joints' limits."""
 
 import numpy as np
-from synthesis_cases import PARAMS
+from tests.unit.settings import PARAMS
 
 from grasptypes.hand import kinematics
-from grasptypes.synthesis.holding import Motors, PhysicsSettings
+from grasptypes.synthesis.holding import Motors
 
-SETTINGS = PhysicsSettings(**PARAMS["physics"]["test"])
+SETTINGS = PARAMS.physics.test
 ANGLES = kinematics.couple(np.radians([30.0, 60.0, 60.0, 60.0]))
 
 

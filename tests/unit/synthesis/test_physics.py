@@ -2,21 +2,19 @@
 
 import numpy as np
 import pytest
-from synthesis_cases import PARAMS, URDF, ball_body, ball_grid, model, palm_at
+from synthesis_cases import TOUCH_M, URDF, ball_object, palm_at, scene_of
+from tests.unit.settings import PARAMS
 
 from grasptypes.hand import kinematics
-from grasptypes.synthesis.closing import ClosingSettings, close_fingers
-from grasptypes.synthesis.holding import PhysicsSettings
+from grasptypes.synthesis.closing import close_fingers
 from grasptypes.synthesis.physics import physics
 
-SETTINGS = PhysicsSettings(**PARAMS["physics"]["test"])
+SETTINGS = PARAMS.physics.test
 
 
 def grasp(height, spread):
     T = palm_at(height)
-    return T[0], close_fingers(model(), ball_grid(), T, np.array([spread]), ClosingSettings(5e-4))[
-        0
-    ]
+    return T[0], close_fingers(scene_of(), T, np.array([spread]), TOUCH_M)[0]
 
 
 GOOD, OTHER = grasp(0.0305, 0.0), grasp(0.06, 0.8)
@@ -31,7 +29,7 @@ def bytes_of(held):
 
 @pytest.fixture
 def body(tmp_path):
-    return ball_body(tmp_path)
+    return ball_object(tmp_path)
 
 
 def test_an_enclosed_ball_is_held_with_forces_that_carry_it(body) -> None:
@@ -68,7 +66,7 @@ def test_a_base_that_is_stopped_lets_its_tip_go_on(body) -> None:
 
 def test_movement_is_that_of_the_object_wherever_its_frame_lies(body, tmp_path) -> None:
     shift = np.array([1.0, 0.0, 0.0])
-    far_off = ball_body(tmp_path, centre_m=shift)
+    far_off = ball_object(tmp_path, centre_m=shift)
     T, angles = GOOD
     moved = np.eye(4)
     moved[:3, 3] = shift
@@ -98,7 +96,7 @@ def test_nothing_holds_far_away_or_without_friction(body) -> None:
     far = palm_at(0.3)[0]
     with physics(URDF, body, SETTINGS) as world:
         assert world.hold(far, GOOD[1]).dropped
-    with physics(URDF, body, SETTINGS._replace(friction=0.0)) as world:
+    with physics(URDF, body, SETTINGS.changed(friction=0.0)) as world:
         tips = grasp(0.105, 0.0)
         assert world.hold(*tips).dropped
 
@@ -117,7 +115,7 @@ def test_shaking_reports_the_worst_direction(body) -> None:
     with physics(URDF, body, SETTINGS) as world:
         still = world.hold(*GOOD)
         once = world.steps
-    with physics(URDF, body, SETTINGS._replace(shake=True)) as world:
+    with physics(URDF, body, SETTINGS.changed(shake=True)) as world:
         shaken = world.hold(*GOOD)
         assert world.steps == 6 * once
     assert shaken.moved_m >= still.moved_m
@@ -125,11 +123,11 @@ def test_shaking_reports_the_worst_direction(body) -> None:
 
 @pytest.mark.parametrize("changes", [{"hold_time_s": 0.15}, {"control_steps": 100}])
 def test_gravity_acts_however_short_the_test_or_long_an_interval_is(tmp_path, changes) -> None:
-    settings = SETTINGS._replace(squeeze_time_s=0.0, **changes)
-    with physics(URDF, ball_body(tmp_path), settings) as world:
+    settings = SETTINGS.changed(squeeze_time_s=0.0, **changes)
+    with physics(URDF, ball_object(tmp_path), settings) as world:
         assert world.hold(palm_at(0.3)[0], GOOD[1]).moved_m > settings.drop_distance_m
 
 
 def test_a_heavy_ball_is_dropped(tmp_path) -> None:
-    with physics(URDF, ball_body(tmp_path, mass_kg=20.0), SETTINGS) as world:
+    with physics(URDF, ball_object(tmp_path, mass_kg=20.0), SETTINGS) as world:
         assert world.hold(*OTHER).dropped

@@ -2,24 +2,24 @@
 
 import numpy as np
 import pytest
-from synthesis_cases import PARAMS, ball_person, ball_thing, model
+from synthesis_cases import ball_shown, scene_of
+from tests.unit.settings import PARAMS
 
 from grasptypes.hand import kinematics
 from grasptypes.seeds import rng
 from grasptypes.synthesis.energy import closeness
 from grasptypes.synthesis.search import search_session
-from grasptypes.synthesis.settings import search_settings
 
-SETTINGS = search_settings(PARAMS["synthesis"])
-SMALL = SETTINGS._replace(
-    candidates=SETTINGS.candidates._replace(number=80),
-    refinement=SETTINGS.refinement._replace(parents=4, rounds=2),
+SETTINGS = PARAMS.synthesis
+SMALL = SETTINGS.changed(
+    candidates=SETTINGS.candidates.changed(number=80),
+    refinement=SETTINGS.refinement.changed(parents=4, rounds=2),
 )
 
 
 def search(settings=SMALL, session=1):
     draw = rng("synthesis", "ball", "use", session, 0)
-    return search_session(model(), ball_thing(), ball_person(), settings, draw)
+    return search_session(scene_of(), ball_shown(), settings, draw)
 
 
 @pytest.fixture(scope="module")
@@ -54,12 +54,12 @@ def test_tries_differ_from_each_other(ranked) -> None:
 
 
 def test_refinement_lowers_the_energy(ranked) -> None:
-    unrefined = SMALL._replace(refinement=SMALL.refinement._replace(rounds=0))
+    unrefined = SMALL.changed(refinement=SMALL.refinement.changed(rounds=0))
     assert ranked.energy[0] < search(unrefined).energy[0]
 
 
 def test_a_hopeless_session_still_has_grasps_to_give_its_reason() -> None:
-    strict = SMALL._replace(ranking=SMALL.ranking._replace(min_fingers=4))
+    strict = SMALL.changed(ranking=SMALL.ranking.changed(min_fingers=4))
     found = search(strict)
     assert 1 <= len(found.energy) <= SMALL.ranking.tries
     assert np.isfinite(found.terms).all()
@@ -68,9 +68,9 @@ def test_a_hopeless_session_still_has_grasps_to_give_its_reason() -> None:
 
 def test_refinement_never_takes_what_must_not_be_ranked() -> None:
     # Variations as wide as the ball: most of them overlap it or touch with too few fingers.
-    wild = SMALL.refinement._replace(position_sd_m=0.06, rotation_sd_rad=1.0, shrink=1.0)
-    found = search(SMALL._replace(refinement=wild))
+    wild = SMALL.refinement.changed(position_sd_m=0.06, rotation_sd_rad=1.0, shrink=1.0)
+    found = search(SMALL.changed(refinement=wild))
     poses = found.hands.T_object_hand[:, None] @ kinematics.link_poses(found.hands.joint_angles_rad)
-    close = closeness(model(), ball_thing().grid, poses)
+    close = closeness(scene_of(), poses)
     assert close.penetration_m.max() <= SMALL.ranking.max_depth_m
     assert close.self_depth_m.max() <= SMALL.ranking.max_depth_m

@@ -6,22 +6,22 @@ import numpy as np
 import pandas as pd
 import pandera.pandas as pa
 import pytest
-from synthesis_cases import PARAMS, ball_grid, ball_person, ball_thing, model, palm_at
+from synthesis_cases import TOUCH_M, ball_shown, palm_at, scene_of
+from tests.unit.settings import PARAMS
 
 from grasptypes.contact_maps.contact_map import ContactMap
 from grasptypes.hand import configuration, kinematics
 from grasptypes.hand.shapes import depth_in_hand
-from grasptypes.synthesis.closing import ClosingSettings, close_fingers
+from grasptypes.synthesis.closing import close_fingers
 from grasptypes.synthesis.energy import closeness
 from grasptypes.synthesis.grasps import ATTEMPT_SCHEMA, GRASP_SCHEMA
-from grasptypes.synthesis.holding import Contact, Held
-from grasptypes.synthesis.settings import search_settings
-from grasptypes.synthesis.trials import Hand, Problem, ValiditySettings, synthesize, try_grasp
+from grasptypes.synthesis.holding import Contact, HoldResult
+from grasptypes.synthesis.trials import GraspTester, SynthesisTask, synthesize_sessions
 from grasptypes.tables import read_table, write_table
 
-VALIDITY = ValiditySettings(**PARAMS["physics"]["validity"])
+VALIDITY = PARAMS.physics.validity
 T = palm_at(0.035)
-ANGLES = close_fingers(model(), ball_grid(), T, np.array([0.0]), ClosingSettings(5e-4))[0]
+ANGLES = close_fingers(scene_of(), T, np.array([0.0]), TOUCH_M)[0]
 
 
 @dataclass
@@ -40,11 +40,11 @@ class World:
         pose[2, 3] -= self.sink_m
         down = np.array([0.0, 0.0, -1.0])
         contacts = [Contact(link, -0.03 * down, down, 2.0) for link in self.links]
-        return Held(dropped, 0.001, 0.01, pose, joint_angles_rad, contacts)
+        return HoldResult(dropped, 0.001, 0.01, pose, joint_angles_rad, contacts)
 
 
 def tried(world, T_object_hand=T[0], angles=ANGLES):
-    return try_grasp(T_object_hand, angles, ball_thing(), model(), world, VALIDITY)
+    return GraspTester(scene_of(), world, VALIDITY).try_grasp(T_object_hand, angles)
 
 
 def test_a_held_grasp_is_valid() -> None:
@@ -82,9 +82,9 @@ def test_a_fingertip_that_was_pushed_behind_its_finger_is_no_state_of_the_hand(
 
 def test_a_thin_wall_between_the_hand_s_points_penetrates() -> None:
     wall = T[0, :3, 3] + [[0.0, 0.0, 0.004]]
-    thing = ball_thing()
-    cut = thing._replace(surface_m=np.vstack([thing.surface_m, wall]))
-    trial = try_grasp(T[0], ANGLES, cut, model(), World([True]), VALIDITY)
+    scene = scene_of()
+    cut = scene._replace(surface_m=np.vstack([scene.surface_m, wall]))
+    trial = GraspTester(cut, World([True]), VALIDITY).try_grasp(T[0], ANGLES)
     assert trial.reason == "penetrates"
     assert trial.penetration_m == pytest.approx(0.004, abs=0.001)
 
@@ -103,14 +103,14 @@ def test_what_is_stored_is_what_was_looked_at() -> None:
     assert trial.joint_angles_rad[0] == trial.joint_angles_rad[1] == pytest.approx(0.1)
     assert trial.joint_angles_rad[2] == 0.0
     poses = trial.T_object_hand @ kinematics.link_poses(trial.joint_angles_rad)
-    of_hand = closeness(model(), ball_grid(), poses[None]).penetration_m[0]
-    of_ball = depth_in_hand(ball_thing().surface_m, poses)
+    of_hand = closeness(scene_of(), poses[None]).penetration_m[0]
+    of_ball = depth_in_hand(scene_of().surface_m, poses)
     assert trial.penetration_m == max(of_hand, of_ball)
     assert trial.reason == ""
 
 
 def contact_map(sessions=3) -> ContactMap:
-    person = ball_person()
+    person = ball_shown()
     count = len(person.points_m)
     return ContactMap(
         points=person.points_m.astype(np.float32),
@@ -131,14 +131,15 @@ def contact_map(sessions=3) -> ContactMap:
 
 
 def synthesized(world, sessions=3, kept=3.0):
-    settings = search_settings(PARAMS["synthesis"])
-    settings = settings._replace(
-        candidates=settings.candidates._replace(number=60),
-        refinement=settings.refinement._replace(parents=4, rounds=1),
-        grip_shape=settings.grip_shape._replace(kept=kept),
+    settings = PARAMS.synthesis
+    settings = settings.changed(
+        candidates=settings.candidates.changed(number=60),
+        refinement=settings.refinement.changed(parents=4, rounds=1),
+        grip_shape=settings.grip_shape.changed(kept=kept),
     )
-    problem = Problem("ball", "use", ball_thing(), contact_map(sessions), 0)
-    return synthesize(problem, Hand(model(), model()), world, settings, VALIDITY)
+    task = SynthesisTask("ball", "use", None, contact_map(sessions), 0)
+    tester = GraspTester(scene_of(), world, VALIDITY)
+    return synthesize_sessions(task, scene_of(), tester, settings)
 
 
 def test_every_attempt_is_kept_and_the_first_valid_one_is_the_grasp(tmp_path) -> None:

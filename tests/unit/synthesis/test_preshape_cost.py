@@ -1,26 +1,26 @@
 import numpy as np
 import pytest
-from synthesis_cases import ball_grid, model
+from synthesis_cases import TOUCH_M, scene_of
 
 from grasptypes.hand import kinematics
-from grasptypes.synthesis.closing import ClosingSettings, close_fingers, slide_in
-from grasptypes.synthesis.grip_shape import ShapeRanges, ShapeSettings, deviation
+from grasptypes.settings.synthesis import ShapeRanges, ShapeSettings
+from grasptypes.synthesis.closing import close_fingers, slide_in
+from grasptypes.synthesis.preshape_cost import preshape_cost
 
 SETTINGS = ShapeSettings(reach_m=0.025, closing_weight=3.0, weight=1.0, kept=0.2)
-CLOSING = ClosingSettings(touch_m=0.0005)
 ANY = (-1.0, 1.0)
 
 
 def of(spread_rad, back_off_m=0.0, **wanted):
-    """Deviation of a hand that came onto the ball, drew back and closed its fingers."""
+    """Cost of a hand that came onto the ball, drew back and closed its fingers."""
     T, spread = np.eye(4)[None], np.array([spread_rad])
     T[0, 2, 3] = -0.25
-    moved = slide_in(model(), ball_grid(), T, spread, np.array([0.5]), CLOSING)
+    moved = slide_in(scene_of(), T, spread, np.array([0.5]), TOUCH_M)
     T[0, 2, 3] += moved[0] - back_off_m
-    angles = close_fingers(model(), ball_grid(), T, spread, CLOSING)
+    angles = close_fingers(scene_of(), T, spread, TOUCH_M)
     poses = T[:, None] @ kinematics.link_poses(angles)
-    ranges = ShapeRanges(**{**dict.fromkeys(ShapeRanges._fields, ANY), **wanted})
-    return deviation(model(), ball_grid(), poses, angles, ranges, SETTINGS)[0]
+    ranges = ShapeRanges(**{**dict.fromkeys(ShapeRanges.model_fields, ANY), **wanted})
+    return preshape_cost(scene_of(), poses, angles, ranges, SETTINGS)[0]
 
 
 def test_nothing_asked_nothing_missed():

@@ -1,4 +1,4 @@
-"""How far a hand is from holding the way the person did, beside touching where the person did.
+"""What it costs a hand to leave the preshape of the person's grip.
 
 A contact map says where, not how: closed fingers may cover the same surface from one side where
 the person's came from three. The measures are those that tell grasp types apart, see `grasp_type`,
@@ -7,50 +7,29 @@ here on the search's coarse hand.
 
 from __future__ import annotations
 
-from typing import NamedTuple
-
 import numpy as np
 from numpy.typing import NDArray
 
 from grasptypes.compiled import compiled
 from grasptypes.labels.grasp_type import enclosed_diameters
+from grasptypes.settings.synthesis import ShapeRanges, ShapeSettings
 from grasptypes.synthesis.closing import moved
 from grasptypes.synthesis.fields import Field, distance, gradient
 from grasptypes.synthesis.hand_model import FIRST_DISTAL, FIRST_PROXIMAL, PALM, HandModel
+from grasptypes.synthesis.scene import GraspScene
 
 Array = NDArray[np.float64]
 
 _FINGERS = FIRST_DISTAL - FIRST_PROXIMAL
 
 
-class ShapeRanges(NamedTuple):
-    """What hands that hold with a grip keep to; least and most of each."""
-
-    palm_gap_m: tuple[float, float]
-    """Between the palm and the object."""
-    enclosed_diameter_m: tuple[float, float]
-    """Of the circle in the fingers, see `grasp_type.enclosed_diameters`."""
-    sideways_share: tuple[float, float]
-    """Of the fingers' push along the palm's x axis, see `grasp_type.sideways_share`."""
-
-
-class ShapeSettings(NamedTuple):
-    """How the measures are taken and what a deviation costs."""
-
-    reach_m: float
-    """Gap at which a link no longer pushes."""
-    closing_weight: float
-    """Length of the closing direction added to the unit normal."""
-    weight: float
-    """What a measure that lacks all of its least, or has twice its most, adds to the energy."""
-    kept: float
-    """Deviation up to which a held hand has kept its grip."""
-
-
-def deviation(
-    model: HandModel, grid: Field, link_poses: Array, joint_angles_rad: Array,
-    ranges: ShapeRanges, settings: ShapeSettings,
-) -> Array:  # fmt: skip
+def preshape_cost(
+    scene: GraspScene,
+    link_poses: Array,
+    joint_angles_rad: Array,
+    ranges: ShapeRanges,
+    settings: ShapeSettings,
+) -> Array:
     """Sum over the measures of how far each is outside of its range, as a share of the bound.
 
     Args:
@@ -60,10 +39,13 @@ def deviation(
     Returns:
         (n,) 0 to 3; no measure counts more than 1.
     """
-    gap, share = _palm_and_push(model, grid, link_poses, settings.reach_m, settings.closing_weight)
+    gap, share = _palm_and_push(
+        scene.hand, scene.field, link_poses, settings.reach_m, settings.closing_weight
+    )
     diameter = np.median(enclosed_diameters(joint_angles_rad), axis=1)
+    allowed = (ranges.palm_gap_m, ranges.enclosed_diameter_m, ranges.sideways_share)
     total = np.zeros(len(link_poses))
-    for values, (least, most) in zip((gap, diameter, share), ranges, strict=True):
+    for values, (least, most) in zip((gap, diameter, share), allowed, strict=True):
         below, above = (least - values) / max(least, 1e-9), (values - most) / max(most, 1e-9)
         total += np.clip(np.maximum(below, above), 0.0, 1.0)
     return total

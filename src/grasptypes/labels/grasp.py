@@ -1,0 +1,77 @@
+"""One grasp with all that belongs to it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import pandas as pd
+from numpy.typing import NDArray
+from scipy.spatial.transform import RigidTransform
+
+from grasptypes.hand import configuration
+from grasptypes.labels.contacts import find_contacts
+from grasptypes.labels.dataset import VALID
+from grasptypes.labels.grasp_type import Label, explain, measure
+from grasptypes.objects.object_geometry import ObjectGeometry
+from grasptypes.settings.grasp_types import GraspTypeSettings
+from grasptypes.settings.params import read_params
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Grasp:
+    """A hand at an object.
+
+    Attributes:
+        object: what is grasped.
+        task: what for.
+        T_object_hand: the palm's frame of `hand.kinematics` in the object's, metres.
+        joint_angles_rad: (8,) in the order of `kinematics.JOINT_NAMES`.
+        grasp_type: one of `GRASP_TYPES`; `Invalid` if the physics test rejects the grasp.
+        reason: `valid`, or why the physics test rejects it.
+        energy: of the search; low is good.
+    """
+
+    object: ObjectGeometry
+    task: str
+    T_object_hand: RigidTransform
+    joint_angles_rad: Array
+    grasp_type: str
+    reason: str
+    energy: float
+
+
+def grasps_of(table: pd.DataFrame, geometry: ObjectGeometry) -> list[Grasp]:
+    """The grasps of one object in a table of `dataset.label_grasps`, in its order."""
+    return [
+        Grasp(
+            object=geometry,
+            task=row.task,
+            T_object_hand=RigidTransform.from_matrix(
+                configuration.unpack(row.hand_configuration).T_object_hand
+            ),
+            joint_angles_rad=np.array(row.joint_angles_rad, dtype=np.float64),
+            grasp_type=row.grasp_type,
+            reason=VALID if row.valid else row.reason,
+            energy=float(row.energy),
+        )
+        for row in table.itertuples()
+    ]
+
+
+def label(grasp: Grasp, settings: GraspTypeSettings | None = None) -> Label:
+    """The grasp type by the rule, whatever the physics test says, with its explanation.
+
+    Args:
+        settings: the rule's; by default those of params.yaml in the current folder.
+
+    Raises:
+        InputError: no settings are given, and there is no params.yaml.
+    """
+    rule = settings or read_params("params.yaml").grasp_types
+    angles = grasp.joint_angles_rad[None]
+    pose = grasp.T_object_hand.as_matrix()[None]
+    contacts = find_contacts(grasp.object.distance_grid, pose, angles, rule.contacts)
+    return explain(measure(contacts, angles), rule.thresholds)[0]
