@@ -12,7 +12,6 @@ from grasptypes.predictors.metrics import (
     chosen,
     multilabel_accuracy,
     multilabel_precision,
-    softmax,
 )
 
 TYPES = 6
@@ -73,8 +72,10 @@ def test_softmax_is_a_distribution_that_a_shift_does_not_change(logits, shift, o
     probability = softmax(logits, axis=-1)
     np.testing.assert_allclose(probability.sum(axis=1), 1, atol=1e-12)
     assert (probability >= 0).all()
-    np.testing.assert_allclose(softmax(logits + shift), probability, atol=1e-9)
-    np.testing.assert_allclose(softmax(logits[:, order]), probability[:, order], atol=1e-12)
+    np.testing.assert_allclose(softmax(logits + shift, axis=-1), probability, atol=1e-9)
+    np.testing.assert_allclose(
+        softmax(logits[:, order], axis=-1), probability[:, order], atol=1e-12
+    )
 
 
 @given(LOGITS)

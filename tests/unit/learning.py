@@ -14,13 +14,11 @@ from grasptypes.labels.samples import COUNTS, TYPES, samples_from_counts
 from grasptypes.predictors.backbone import KINDS, untrained_backbone
 from grasptypes.predictors.examples import Examples, assemble
 from grasptypes.predictors.features import NO_TASK
-from grasptypes.predictors.finetuning import FineTuning
 from grasptypes.predictors.folds import split
 from grasptypes.predictors.predictor import VARIANTS, Architecture, BatchedMLP
 from grasptypes.predictors.predictor_files import ModelCard, write_predictor
-from grasptypes.predictors.protocol import Recipe
-from grasptypes.predictors.training import Schedule
 from grasptypes.predictors.weights import Weights, weights_file
+from grasptypes.settings.predictors import FineTuning, PredictorSettings
 from grasptypes.yaml_files import merge
 
 ROOT = Path(__file__).parents[2]
@@ -28,7 +26,8 @@ SHIFTS = {"use": 10, "handoff": -10, "wash": 20}
 TASKS = {"use": 10, "handoff": -10, "show": 0}
 OBJECTS = ("apple", "mug", "pan", "knife")
 VIEWS = 20
-SCHEDULE = Schedule(
+SETTINGS = PredictorSettings(
+    seeds=1,
     hidden=(32, 24, 16),
     components=12,
     whitening=0.5,
@@ -39,9 +38,9 @@ SCHEDULE = Schedule(
     weight_decay=0.01,
     dropout=0.0,
     probability_weight=2.0,
+    finetune="none",
+    finetuning=FineTuning(last_blocks=1, learning_rate=1e-4, epochs=2, batch=8),
 )
-TUNING = FineTuning("none", last_blocks=1, learning_rate=1e-4, epochs=2, batch=8)
-RECIPE = Recipe(SCHEDULE, TUNING)
 
 
 def samples() -> pd.DataFrame:

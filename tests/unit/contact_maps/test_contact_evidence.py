@@ -13,8 +13,9 @@ from grasptypes.contact_maps.contact_evidence import (
     summarise,
 )
 from grasptypes.objects.object_files import Surface
+from grasptypes.settings.contact_maps import ContactEvidenceSettings
 
-PARAMS = {"hand_spacing_m": 0.006, "touch_m": 0.005}
+SETTINGS = ContactEvidenceSettings(hand_spacing_m=0.006, touch_m=0.005)
 
 
 @pytest.fixture
@@ -40,7 +41,7 @@ def _grasp(palm_z_m, grasp_type="Power Sphere"):
 
 def _evidence(box, tmp_path, *grasps):
     return pd.DataFrame(
-        object_evidence(pd.DataFrame(list(grasps)), box, tmp_path / "none.stl", 1.0, PARAMS)
+        object_evidence(pd.DataFrame(list(grasps)), box, tmp_path / "none.stl", 1.0, SETTINGS)
     )
 
 

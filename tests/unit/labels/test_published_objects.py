@@ -8,6 +8,7 @@ from grasptypes.labels.published_data import REFERENCES, lacking_data
 from grasptypes.labels.published_objects import object_distances, own_mesh
 from grasptypes.labels.published_source import PUBLISHED
 from grasptypes.objects.object_files import Surface, write_surface
+from grasptypes.settings.grasp_types import ModelFrame
 
 
 @pytest.fixture
@@ -29,7 +30,7 @@ def test_own_models_stand_on_the_ground_above_the_origin(own):
 
 
 def test_own_models_are_turned_before_and_shifted_after(own):
-    frame = {"rotation": [[0, -1, 0], [1, 0, 0], [0, 0, 1]], "shift_m": [0.0, 0.01, 0.0]}
+    frame = ModelFrame(rotation=[[0, -1, 0], [1, 0, 0], [0, 0, 1]], shift_m=[0.0, 0.01, 0.0])
     mesh = own_mesh(own, frame)
     np.testing.assert_allclose(mesh.bounds, [[-0.02, -0.09, 0], [0.02, 0.11, 0.02]], atol=1e-12)
 

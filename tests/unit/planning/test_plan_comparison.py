@@ -3,7 +3,9 @@
 import numpy as np
 import pandas as pd
 import pytest
-from learning import OBJECTS, RECIPE, TASKS, examples
+from learning import OBJECTS, SETTINGS, TASKS, examples
+from synthesis_cases import ball_object
+from tests.unit.settings import PARAMS
 
 from grasptypes.labels.grasp_type import GRASP_TYPES
 from grasptypes.planning import plan_comparison
@@ -19,7 +21,7 @@ from grasptypes.planning.plan_comparison import (
     summary,
     text,
 )
-from grasptypes.planning.planner import Planned, Workshop
+from grasptypes.planning.planner import PlanningContext
 from grasptypes.planning.unseen_types import unseen_types
 from grasptypes.predictors.problem import LearningProblem
 
@@ -42,9 +44,10 @@ def planned(monkeypatch):
     grasps = attempts.drop_duplicates("session")
     asked = {}
     contacts = plan_comparison.__name__ + ".plan_contacts"
-    monkeypatch.setattr(contacts, lambda folder, scan, grips, *rest: asked.update(grips=grips))
-    found = lambda *rest, **more: Planned(attempts, grasps)  # noqa: E731
-    monkeypatch.setattr(plan_comparison.__name__ + ".plan", found)
+    monkeypatch.setattr(contacts, lambda task, measured, grips, *rest: asked.update(grips=grips))
+    found = lambda *rest: (attempts, grasps)  # noqa: E731
+    monkeypatch.setattr(plan_comparison.__name__ + ".plan_sessions", found)
+    monkeypatch.setattr(plan_comparison.MapTask, "of_object", lambda *rest: None)
     return asked
 
 
@@ -57,8 +60,8 @@ def planned(monkeypatch):
     ],
 )
 def test_tests_and_valid_grasps_are_counted_for_each_choice(planned, tmp_path, choice, grips):
-    shop = Workshop(tmp_path, tmp_path, ("mug", "use"), 0, {})
-    row = outcome(Case(shop, choice, TYPES, {}))
+    context = PlanningContext(ball_object(tmp_path), "use", "ball", tmp_path, PARAMS)
+    row = outcome(Case(context, choice, TYPES))
     assert planned["grips"] == grips
     assert (row["sessions"], row["tests"], row["valid"]) == (3, 3, 2)
     assert (row["valid_predicted"], row["valid_labelled"]) == (0, 2)
@@ -123,7 +126,7 @@ def test_the_error_of_a_saving_is_that_of_a_mean_over_objects():
 
 def test_every_object_left_out_gets_types_for_every_task():
     problem = LearningProblem(
-        "simulated", "task_vector", TASKS, examples("task_vector"), RECIPE, None, None
+        "simulated", "task_vector", TASKS, examples("task_vector"), SETTINGS, None, None
     )
     found = unseen_types(problem, seeds=1, seed=0)
     assert found.keys() == {(name, task) for name in OBJECTS for task in TASKS}

@@ -1,7 +1,6 @@
 """A plan for one mesh: the sessions, the order of the grasps, the files, and what is refused."""
 
 import json
-from types import SimpleNamespace
 
 import numpy as np
 import pandas as pd
@@ -11,17 +10,19 @@ from learning import ROOT, small_checkout
 from PIL import Image
 
 from grasptypes.__main__ import main
-from grasptypes.commands.plan import TYPES, _prepare
+from grasptypes.commands.plan import TYPES
+from grasptypes.contact_maps.contact_map import MapTask
 from grasptypes.contact_maps.measured_contacts import draw_measured_session
 from grasptypes.errors import InputError
 from grasptypes.exchange import dexgraspbench, graspit_world, multigrippergrasp
 from grasptypes.labels.grasp_type import GRASP_TYPES
 from grasptypes.labels.published import read_published
+from grasptypes.objects.loading import load_object
 from grasptypes.planning import plan_contacts as plan_contacts_module
-from grasptypes.planning.plan_contacts import grips_of, plan_contacts
+from grasptypes.planning.plan_contacts import MeasuredMap, grips_of, plan_contacts
 from grasptypes.planning.planner import choose, ranked
 from grasptypes.predictors.weights import WEIGHTS_VARIABLE
-from grasptypes.yaml_files import read_yaml
+from grasptypes.settings.params import read_params
 
 SESSIONS = 3
 SMALL = {
@@ -139,17 +140,21 @@ def test_the_predictor_chooses_types_if_none_is_given(
     assert said["contact_map"] == "warm.ply"
 
 
-def test_wanted_grips_take_turns_where_it_is_warm(checkout, mesh, tmp_path):
-    params = read_yaml(checkout / "params.yaml")
-    prepared = _prepared(mesh, params, tmp_path)
-    settings = {**params["contact_maps"], "sessions": 8}
-    scan = (mesh.parent / "warm.ply", 0.001)
+def map_task(checkout, mesh, sessions):
+    params = read_params(checkout / "params.yaml")
+    tube = load_object(mesh, "mm", mass_kg=0.1, settings=params.objects)
+    settings = params.contact_maps.changed(sessions=sessions)
+    return MapTask.of_object(tube, ("tube", "use"), 0, settings)
+
+
+def test_wanted_grips_take_turns_where_it_is_warm(checkout, mesh):
+    task = map_task(checkout, mesh, sessions=8)
+    scan = MeasuredMap(mesh.parent / "warm.ply", 0.001)
     grips = grips_of(["Large Wrap", "Small Wrap", "Precision"])
     assert grips == ("wrap", "pinch")
-    name = ("tube", "use")
-    warm = plan_contacts(prepared, scan, grips, name, 0, settings, mesh).contact_map
+    warm = plan_contacts(task, scan, grips, mesh).contact_map
     assert sorted(warm.grip) == ["pinch"] * 4 + ["wrap"] * 4
-    anywhere = plan_contacts(prepared, None, grips, name, 0, settings, mesh).contact_map
+    anywhere = plan_contacts(task, None, grips, mesh).contact_map
     height = [(m.sessions * m.points[:, 2]).sum() / m.sessions.sum() for m in (warm, anywhere)]
     assert height[0] > 0.03 > abs(height[1])
     assert (anywhere.probability == 1).all()
@@ -160,37 +165,26 @@ def unlucky(monkeypatch):
     """Numbers of sessions whose hand finds no place."""
     numbers = set()
 
-    def draw(points, probability, key, *rest, **more):
-        if key[2] in numbers:
-            raise InputError("", "", "no place")
-        return draw_measured_session(points, probability, key, *rest, **more)
+    def draw(task, probability, number, *rest):
+        return (
+            None if number in numbers else draw_measured_session(task, probability, number, *rest)
+        )
 
     monkeypatch.setattr(plan_contacts_module, "draw_measured_session", draw)
     return numbers
 
 
-def test_a_session_without_a_place_is_left_out_and_the_others_stay(
-    checkout, mesh, tmp_path, unlucky
-):
-    params = read_yaml(checkout / "params.yaml")
-    prepared = _prepared(mesh, params, tmp_path)
-    asked = (
-        prepared,
-        None,
-        ("wrap",),
-        ("tube", "use"),
-        0,
-        params["contact_maps"] | {"sessions": 3},
-    )
-    whole = plan_contacts(*asked, mesh)
+def test_a_session_without_a_place_is_left_out_and_the_others_stay(checkout, mesh, unlucky):
+    asked = map_task(checkout, mesh, sessions=3), None, ("wrap",), mesh
+    whole = plan_contacts(*asked)
     assert whole.numbers == (1, 2, 3)
     unlucky.add(2)
-    rest = plan_contacts(*asked, mesh)
+    rest = plan_contacts(*asked)
     assert rest.numbers == (1, 3)
     np.testing.assert_array_equal(rest.contact_map.sessions, whole.contact_map.sessions[[0, 2]])
     unlucky.update((1, 3))
     with pytest.raises(InputError, match=r"tube\.stl: no hand can hold it anywhere.*0\.16 m long"):
-        plan_contacts(*asked, mesh)
+        plan_contacts(*asked)
 
 
 def test_the_plan_without_a_session_keeps_the_others(
@@ -211,11 +205,6 @@ def test_a_file_s_name_does_not_change_the_plan(planned, checkout, mesh, tmp_pat
     assert (tmp_path / "out/attempts.csv").read_text() == (planned / "attempts.csv").read_text()
     table = pd.read_csv(tmp_path / "out/grasps.csv")
     assert set(table.Object) == {"my $cup$"}
-
-
-def _prepared(mesh, params, folder):
-    _prepare(SimpleNamespace(object=mesh, unit="mm", mass_kg=0.1), params, folder)
-    return folder
 
 
 def test_wanted_types_come_first_and_failures_last():

@@ -3,13 +3,12 @@
 import numpy as np
 import pandas as pd
 import pytest
-from learning import OBJECTS, RECIPE, TASKS, VIEWS, features, samples
+from learning import OBJECTS, SETTINGS, TASKS, VIEWS, features, samples
 
 from grasptypes.predictors.ceilings import constant_of_others
 from grasptypes.predictors.generalisation import (
     GENERALISATION_SCHEMA,
-    Known,
-    Trial,
+    VariantInputs,
     constant_similarity,
     describe,
     inherit,
@@ -19,14 +18,15 @@ from grasptypes.predictors.generalisation import (
 )
 from grasptypes.predictors.leaving_out import members_by_object
 from grasptypes.predictors.scoring import METRIC_SCHEMA
-from grasptypes.reports.figures import draw_generalisation
+from grasptypes.reports.generalisation_plot import plot_generalisation
+from grasptypes.settings.predictors import VariantTrial
 
 VARIANTS = {
     f"{name}_v{number:02d}": {encoding: array + 0.01 * number for encoding, array in shown.items()}
     for name, shown in features().items()
     for number in (1, 2)
 }
-KNOWN = Known(features(), VARIANTS, samples(), list(TASKS))
+KNOWN = VariantInputs(features(), VARIANTS, samples(), list(TASKS))
 
 
 def test_no_shape_of_the_object_is_trained_on_and_only_itself_is_tested():
@@ -44,7 +44,7 @@ def test_no_shape_of_the_object_is_trained_on_and_only_itself_is_tested():
 def test_variants_have_the_labels_of_their_object_and_the_views_of_the_trial():
     known = inherit(samples(), ["mug", "mug_v01"]).set_index(["object", "task"])
     assert known.loc[("mug_v01", "use")].equals(known.loc[("mug", "use")])
-    found = trial_examples(KNOWN, "task_vector", Trial(3, 5))
+    found = trial_examples(KNOWN, "task_vector", VariantTrial(shapes=3, views=5))
     views = found.index.groupby("object")["view"].nunique()
     assert views["mug"] == VIEWS
     assert views["mug_v02"] == 5
@@ -54,8 +54,8 @@ def test_variants_have_the_labels_of_their_object_and_the_views_of_the_trial():
 @pytest.fixture(scope="module")
 def trials():
     tables = []
-    for trial in (Trial(1, 10), Trial(2, 5)):
-        metrics = try_trial(KNOWN, "task_vector", trial, RECIPE, 2, seed=0)
+    for trial in (VariantTrial(shapes=1, views=10), VariantTrial(shapes=2, views=5)):
+        metrics = try_trial(KNOWN, "task_vector", trial, SETTINGS, (2, 0))
         source = {"labels": "simulated", "model": "task_vector", "backbone": "b", "weights": "w"}
         table = metrics.assign(**source, finetune="none")[list(METRIC_SCHEMA.columns)]
         tables.append(table.assign(shapes=trial.shapes, views=trial.views))

@@ -10,7 +10,6 @@ from grasptypes.predictors.metrics import (
     evaluate,
     multilabel_accuracy,
     multilabel_precision,
-    softmax,
 )
 
 

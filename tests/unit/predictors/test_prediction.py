@@ -130,7 +130,7 @@ def test_bad_input_is_one_line_and_writes_nothing(predict, tmp_path, arguments, 
 
 def test_one_bad_picture_of_a_folder_stops_everything(predict, tmp_path, monkeypatch):
     (tmp_path / "zero.png").touch()
-    monkeypatch.setattr(prediction, "open_predictor", None)  # told before it is opened
+    monkeypatch.setattr(prediction.Predictor, "load", None)  # told before it is opened
     drawn = tmp_path / "new" / "drawn.png"
     out, err, status = predict("--image", tmp_path, "--model", "a", "--picture", drawn)
     assert (out, status) == ("", 1)
@@ -175,7 +175,7 @@ def test_names_are_no_mathematics_and_have_room(checkout):
     even = np.full(len(TYPES), 1 / len(TYPES))
     names = ["a $\\cup$ of $5_$.png", "x" * 100 + ".png"]
     answers = [Answer(name, even, even) for name in names]
-    figure = draw_answers([PICTURE, PICTURE], answers, card, "title of $_$")
+    figure = draw_answers([PICTURE, PICTURE], answers, card, "use of $_$")
     figure.canvas.draw()
     first, _, second, _ = (axes.get_title() for axes in figure.axes)
     assert first == names[0]

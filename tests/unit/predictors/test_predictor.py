@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 import torch
+from scipy.special import softmax
 
 from grasptypes.predictors.predictor import LAYERS, VARIANTS, Architecture, BatchedMLP, loss
 

@@ -6,7 +6,6 @@ import learning
 import numpy as np
 import pytest
 import torch
-from tests.unit.settings import RAW
 
 from grasptypes.errors import InputError
 from grasptypes.labels.samples import TYPES
@@ -19,7 +18,7 @@ from grasptypes.predictors.predictor_files import (
     read_card,
     write_predictor,
 )
-from grasptypes.predictors.protocol import Recipe, recipe_of, train_final, try_splits
+from grasptypes.predictors.protocol import train_final, try_splits
 from grasptypes.predictors.scoring import CURVE_SCHEMA, PREDICTION_SCHEMA
 from grasptypes.predictors.training import Member, members_by_group
 from grasptypes.predictors.weights import weights_file
@@ -72,14 +71,10 @@ def card(architecture, weights, model="task_vector", finetune="none"):
     )
 
 
-def test_the_parameters_make_a_recipe():
-    assert recipe_of(RAW["predictors"]).frozen
-
-
 def test_frozen_tables_hold_a_row_a_fold_and_seed_and_a_prediction_a_test_example():
     examples = learning.examples("no_task")
     members = members_by_group(examples.index["fold"], 2)
-    quick = Recipe(replace(learning.SCHEDULE, epochs=3), learning.TUNING)
+    quick = learning.SETTINGS.changed(epochs=3)
     outcome = try_splits(examples, members, quick, KEY)
     assert len(outcome.metrics) == 4 * 2
     assert len(CURVE_SCHEMA.validate(outcome.curves)) == 4 * 2 * 3
@@ -92,16 +87,16 @@ def test_frozen_tables_hold_a_row_a_fold_and_seed_and_a_prediction_a_test_exampl
 def test_fine_tuning_changes_the_blocks_it_names(weights, finetune):
     backbone = untrained_backbone("mobilenet_v2", 32).eval()
     before = {name: tensor.clone() for name, tensor in backbone.state_dict().items()}
-    recipe = Recipe(learning.SCHEDULE, replace(learning.TUNING, finetune=finetune))
+    settings = learning.SETTINGS.changed(finetune=finetune)
     examples = pictures("task_vector")
     members = [Member("0", 0, np.arange(0, 240, 10), np.arange(5, 240, 30))]
-    outcome = try_splits(examples, members, recipe, KEY, backbone)
+    outcome = try_splits(examples, members, settings, KEY, backbone)
     assert outcome.curves["train_loss"].notna().all()
     assert outcome.metrics["n_test"].tolist() == [8]
     for name, tensor in backbone.state_dict().items():
         torch.testing.assert_close(tensor, before[name])  # a copy is tuned
     few = replace(examples, inputs=examples.inputs[:16])
-    tuned = train_final(few, recipe, KEY, backbone)[1]
+    tuned = train_final(few, settings, KEY, backbone)[1]
     changed = {
         int(name.split(".")[1])
         for name, parameter in tuned.named_parameters(remove_duplicate=False)
@@ -112,14 +107,14 @@ def test_fine_tuning_changes_the_blocks_it_names(weights, finetune):
 
 
 def test_a_fine_tuned_predictor_survives_the_disk(weights, tmp_path):
-    recipe = Recipe(learning.SCHEDULE, replace(learning.TUNING, finetune="last_blocks"))
+    settings = learning.SETTINGS.changed(finetune="last_blocks")
     examples = pictures("task_vector")
     few = replace(examples, inputs=examples.inputs[:16])
     backbone = untrained_backbone("mobilenet_v2", 32).eval()
     backbone.blocks.load_state_dict(
         {k.removeprefix("features."): v for k, v in torch.load(weights.path).items() if "feat" in k}
     )
-    heads, tuned = train_final(few, recipe, KEY, backbone)
+    heads, tuned = train_final(few, settings, KEY, backbone)
     files = tmp_path / "predictor.safetensors", tmp_path / "predictor.json"
     write_predictor(heads, tuned, card(heads.architecture, weights, finetune="last_blocks"), *files)
     loaded = load_predictor(*files, weights)
@@ -133,7 +128,7 @@ def test_a_fine_tuned_predictor_survives_the_disk(weights, tmp_path):
 @pytest.mark.parametrize("model", VARIANTS)
 def test_a_predictor_from_the_disk_answers_as_the_one_that_was_trained(weights, tmp_path, model):
     tasks = 3 if model == "task_vector" else 0
-    sizes = learning.SCHEDULE.hidden
+    sizes = learning.SETTINGS.hidden
     heads = BatchedMLP(
         Architecture(KINDS["mobilenet_v2"].features, tasks, sizes, len(TYPES)), [("a",)]
     ).eval()

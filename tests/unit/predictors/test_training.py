@@ -1,7 +1,5 @@
 """Training: it learns what can be learnt, and the same from the same seed."""
 
-from dataclasses import replace
-
 import learning
 import numpy as np
 import pytest
@@ -12,10 +10,10 @@ from grasptypes.predictors.training import Member, fit, members_by_group, predic
 KEY = ("predictor", "test")
 
 
-def trained(model, schedule=learning.SCHEDULE, seeds=1):
+def trained(model, settings=learning.SETTINGS, seeds=1):
     examples = learning.examples(model)
     members = members_by_group(examples.index["fold"], seeds)
-    heads, curves = fit(examples, members, schedule, KEY)
+    heads, curves = fit(examples, members, settings, KEY)
     logits = [predict(heads, k, examples, member.test) for k, member in enumerate(members)]
     return score(examples, members, logits)[0], curves, logits
 
@@ -41,7 +39,7 @@ def test_without_the_task_it_cannot_be_known():
 
 
 def test_the_same_again_and_another_seed_differs():
-    quick = replace(learning.SCHEDULE, epochs=2, dropout=0.2)
+    quick = learning.SETTINGS.changed(epochs=2, dropout=0.2)
     first, again = trained("task_vector", quick, seeds=2), trained("task_vector", quick, seeds=2)
     np.testing.assert_array_equal(first[2], again[2])
     np.testing.assert_array_equal(first[1], again[1])
@@ -51,7 +49,7 @@ def test_the_same_again_and_another_seed_differs():
 def test_more_components_than_features_and_fewer_examples_than_a_batch():
     examples = learning.examples("ignores_task")
     member = Member("all", 0, np.arange(0, 80, 8), np.arange(0))
-    large = replace(learning.SCHEDULE, components=500, batch=64, epochs=2)
+    large = learning.SETTINGS.changed(components=500, batch=64, epochs=2)
     heads, curves = fit(examples, [member], large, KEY)
     assert heads.architecture.inputs == 24
     assert np.isnan(curves[..., 1]).all()  # nothing to test on
@@ -63,8 +61,6 @@ def test_splits_of_different_sizes_that_hold_fewer_examples_than_components():
         Member("0", 0, np.arange(0, 60, 6), np.arange(3)),
         Member("1", 0, np.arange(0, 60, 5), np.arange(2)),
     ]
-    heads, curves = fit(
-        examples, members, replace(learning.SCHEDULE, components=500, epochs=2), KEY
-    )
+    heads, curves = fit(examples, members, learning.SETTINGS.changed(components=500, epochs=2), KEY)
     assert np.isfinite(curves).all()
     assert predict(heads, 1, examples, np.arange(4)).shape == (4, 6)

@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 import trimesh
 from PIL import Image
-from tests.unit.settings import RAW
 
 from grasptypes.errors import InputError
 from grasptypes.renders.gl_platform import choose_platform
-from grasptypes.renders.renderer import Camera, Studio
+from grasptypes.renders.renderer import Camera
 from grasptypes.renders.scene import Part
+from grasptypes.settings.renders import CameraSettings
 
 SETTINGS = {
     "size_px": 64,
@@ -38,7 +38,7 @@ def ball(colour):
 
 
 def pictures(settings, colour=(0.8, 0.05, 0.05), count=2):
-    with Camera(Studio(**settings)) as camera:
+    with Camera(CameraSettings.check(settings)) as camera:
         return list(camera.views([ball(colour)], count, "ball", 0).pictures())
 
 
@@ -60,7 +60,7 @@ def test_the_shadow_darkens_the_ground_only():
 
 
 def test_the_same_bytes_again_and_other_views_for_another_seed():
-    with Camera(Studio(**SETTINGS)) as camera:
+    with Camera(CameraSettings.check(SETTINGS)) as camera:
         first = list(camera.views([ball((0.2, 0.5, 0.2))], 3, "ball", 0).pngs())
         again = list(camera.views([ball((0.2, 0.5, 0.2))], 3, "ball", 0).pngs())
         other = camera.views([ball((0.2, 0.5, 0.2))], 3, "ball", 1).T_object_camera
@@ -74,7 +74,7 @@ def test_the_same_bytes_again_and_other_views_for_another_seed():
 def test_lights_shine_in_the_order_they_are_stated_in():
     stated = [float(number) for number in range(1, 7)]
     lights = [{"intensity_lux": lux, "direction": [0.5, -0.9, -0.7]} for lux in stated]
-    with Camera(Studio(**SETTINGS | {"lights": lights})) as camera:
+    with Camera(CameraSettings.check(SETTINGS | {"lights": lights})) as camera:
         for _ in range(5):
             scene, _, _ = camera.scene([ball((0.8, 0.05, 0.05))])
             assert [node.light.intensity for node in scene.light_nodes] == stated
@@ -94,8 +94,3 @@ def test_an_unknown_platform_is_refused(monkeypatch):
 def test_the_platform_is_chosen_where_none_is_named(monkeypatch):
     monkeypatch.delenv("PYOPENGL_PLATFORM", raising=False)
     assert choose_platform() in ("egl", "osmesa")
-
-
-def test_the_parameters_name_every_field_of_the_studio():
-    renders = RAW["renders"]
-    assert set(Studio.__dataclass_fields__) == set(renders) - {"views", "sheet"}
