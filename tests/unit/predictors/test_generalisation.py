@@ -18,7 +18,7 @@ from grasptypes.predictors.generalisation import (
 )
 from grasptypes.predictors.leaving_out import members_by_object
 from grasptypes.predictors.scoring import METRIC_SCHEMA
-from grasptypes.reports.generalisation_plot import plot_generalisation
+from grasptypes.reports.figures import draw_generalisation
 from grasptypes.settings.predictors import VariantTrial
 
 VARIANTS = {
