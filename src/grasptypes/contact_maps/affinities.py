@@ -1,7 +1,7 @@
 """The affinity table: which part of an object people hold for a task, how, and from which side.
 
-One row is one way of holding. A row's affinity is its weight against the other rows of the same
-object and task, so they need not sum to one. Own objects and further tasks are added as rows.
+Each row is one way of holding. Its affinity is a weight relative to the other rows of the same
+object and task; affinities need not sum to one. Add rows for your own objects and further tasks.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from grasptypes.errors import InputError
 COLUMNS = (
     "object", "task", "part", "grip", "approach", "axis", "low", "high", "affinity", "reason",
 )  # fmt: skip
-# Each grip of the table belongs to one of the two styles of the paper's Figure 2 (a).
+# Each grip belongs to one of the two styles in Figure 2 (a) of the paper.
 STYLE_OF_GRIP = {
     "wrap": "power",
     "enclose": "power",
@@ -40,11 +40,11 @@ class AffinityRow:
         grip: `wrap` (palm and parallel fingers around the axis), `enclose` (palm and spread
             fingers), `tripod` (fingertips spread around the approach), `pinch` (fingertips against
             the thumb), `rim` (fingertips on both sides of a wall's edge).
-        approach: side of the object on which the palm stands, or `around`: any side of the axis.
-        axis: object axis the part is held around, empty for the part's longest extent.
-        low, high: where the hand's centre lies along that axis, as fractions of the parts' extent.
+        approach: side of the object where the palm is, or `around` for any side of the axis.
+        axis: object axis around which the part is held; empty for the part's longest extent.
+        low, high: range of the hand's centre along that axis, as fractions of the parts' extent.
         affinity: weight among the holds of the same object and task.
-        reason: why people do so, or the evidence.
+        reason: why people hold it this way, or the evidence.
     """
 
     parts: tuple[str, ...]
@@ -64,14 +64,14 @@ def read_affinities(
 
     Args:
         path: CSV with the columns `COLUMNS`, UTF-8.
-        objects: names an `object` cell may hold.
-        tasks: tasks whose rows are wanted; those of others are checked and left out.
+        objects: allowed object names.
+        tasks: tasks to return; rows of other tasks are checked and dropped.
 
     Returns:
         The holds of each (object, task) that has any, in the table's order.
 
     Raises:
-        InputError: naming the line and column of the first bad cell.
+        InputError: names the line and column of the first bad cell.
     """
     path = Path(path)
     try:

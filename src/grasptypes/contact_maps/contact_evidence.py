@@ -1,7 +1,7 @@
-"""What the published hand poses tell about where objects are held: the affinity table's evidence.
+"""Evidence for the affinity table: where the published hand poses hold the objects.
 
-A pose is replayed on its object; the hand's surface points that come close to the object are its
-contact. The object's parts, and how far along the object the contact lies, come from our model.
+A pose is replayed on its object; the points of the hand's surface that are close to the object are
+its contact. The parts, and the position of the contact along the object, come from our model.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ from grasptypes.settings.contact_maps import ContactEvidenceSettings
 
 Array = NDArray[np.float64]
 
-# The grip of the affinity table that a published label stands for (the paper's Figure 2).
+# The grip of the affinity table for each published label (Figure 2 of the paper).
 GRIP_OF_TYPE = {
     "Large Wrap": "wrap",
     "Medium Wrap": "wrap",
@@ -89,14 +89,15 @@ SUMMARY_SCHEMA = pa.DataFrameSchema(
     ordered=True,
 )
 
-# Objects whose poses are published, by what is held of them. The grips of a class are the general
-# pattern for objects without poses.
+# Objects with published poses, by what is held. The grips of a class are the pattern for objects
+# without poses.
 CLASSES = {
     "vessels": ("bowl", "mug", "utah_teapot", "water_bottle", "wine_glass"),
     "compact": ("apple", "banana", "cell_phone", "stapler"),
     "handles": ("flashlight", "hammer", "scissors", "toothbrush"),
 }
-# A palm this near carries: power grasps lie at a median of 1 to 8 mm, precision grasps at 55 to 59.
+# A palm this close supports the object: median gaps are 1 to 8 mm in power grasps, 55 to 59 in
+# precision grasps.
 PALM_CARRIES_MM = 15.0
 
 
@@ -120,7 +121,7 @@ def object_evidence(
     Args:
         grasps: rows of `published.read_published` with a configuration and a valid label.
         surface: our model, in metres at the grasped scale.
-        scan: mesh of the real object at scale 1; where there is none, our model takes its place.
+        scan: mesh of the real object at scale 1; if there is none, our model is used.
     """
     mesh = trimesh.Trimesh(surface.vertices, surface.faces, process=False)
     ours_m = np.asarray(surface.vertices) - _standing_origin(mesh)
@@ -140,8 +141,8 @@ def session_evidence(
 
     Args:
         grasp: a row of `published.read_published` with a configuration and a valid label.
-        mesh: the object the pose was made for, metres, in the pose's frame.
-        ours: the model of the same object in the same frame.
+        mesh: the object of the pose, metres, in the pose's frame.
+        ours: our model of the same object in the same frame.
         spacing_m: distance between neighbouring points on the hand.
         touch_m: largest distance that counts as touching.
     """
@@ -151,7 +152,7 @@ def session_evidence(
     T = poses[surface.link_index]
     points = np.einsum("pij,pj->pi", T[:, :3, :3], surface.points_m) + T[:, :3, 3]
     distance_m = signed_distance(points, mesh.vertices, mesh.faces)
-    # A pose that touches nothing is judged by what it comes closest to.
+    # A pose that touches nothing is classified by what it is closest to.
     touching = distance_m < max(touch_m, distance_m.min() + touch_m / 2)
     _, nearest = cKDTree(ours.points_m).query(points[touching])
     side, cosine = _nearest_side(-hand.T_object_hand[:3, 2])
@@ -173,7 +174,7 @@ def session_evidence(
 
 
 def summarise(evidence: pd.DataFrame) -> pd.DataFrame:
-    """Grasps by object, task, grip and side of the palm: how many, where, and which part most.
+    """Grasps by object, task, grip and palm side: number, position, and most frequent part.
 
     Args:
         evidence: rows of :func:`session_evidence`.
@@ -202,7 +203,7 @@ def pattern(grasps: pd.DataFrame) -> pd.DataFrame:
         grasps: the table of `published.read_published`.
 
     Returns:
-        class, task, grip, n, share: the general pattern that objects without poses follow.
+        class, task, grip, n, share: the pattern for objects without poses.
     """
     class_of = {name: kind for kind, names in CLASSES.items() for name in names}
     labelled = grasps.assign(
@@ -214,7 +215,7 @@ def pattern(grasps: pd.DataFrame) -> pd.DataFrame:
 
 
 def _standing_origin(mesh: trimesh.Trimesh) -> Array:
-    """Origin (3,) of the published poses' frame: below the middle of the object, on the ground."""
+    """Origin (3,) of the frame of the published poses: on the ground below the object's centre."""
     low, high = mesh.bounds
     return np.array([*(low[:2] + high[:2]) / 2, low[2]])
 
@@ -225,7 +226,7 @@ def _nearest_side(direction: Array) -> tuple[str, float]:
 
 
 def _relative(points: Array, body: Array) -> Array:
-    """Mean place (3,) of points in the bounding box of a body, 0 to 1 along each axis."""
+    """Mean position (3,) of points in the bounding box of a body, 0 to 1 along each axis."""
     low, high = body.min(axis=0), body.max(axis=0)
     return np.asarray(np.clip((points.mean(axis=0) - low) / (high - low), 0.0, 1.0))
 

@@ -1,8 +1,8 @@
-"""Contact maps: where on an object people touch it for a task, as a population and one by one.
+"""Contact maps: where people touch an object for a task, as a population and individually.
 
-The paper takes them from ContactDB's thermal recordings, which are no longer to be had. Here a
-virtual person chooses a hold from the affinity table and lays a hand of their own size on the
-object; the population's map is the mean over as many persons as ContactDB recorded.
+The paper takes them from ContactDB's thermal recordings, which are no longer available. Here a
+virtual person chooses a hold from the affinity table and places a hand of their own size on the
+object; the population's map is the mean over as many people as ContactDB recorded.
 """
 
 from __future__ import annotations
@@ -37,16 +37,16 @@ class ContactMap:
         normals: (N, 3) float32, outward.
         part_index: (N,) int16 into `part_names`.
         part_names: (P,) str.
-        probability: (N,) float32, share of people who touch the point; 0 where unknown.
-        sessions: (S, N) float32, one person's contact each, 0 to 1.
+        probability: (N,) float32, share of people who touch the point; 0 if unknown.
+        sessions: (S, N) float32, contact of one person each, 0 to 1.
         style: (S,) str, power or precision.
         grip: (S,) str, a grip of the affinity table.
         part: (S,) str, the held parts, joined by `+`.
         approach: (S, 3) float32, unit direction in which the palm moves onto the object.
         closing: (S, 3) float32, unit direction from the thumb to the fingers.
         centre_m: (S, 3) float32, between palm, fingers and thumb.
-        height: (S,) float32, 0 to 1 along the held parts, or along what a measured map shows.
-        hand_length_m: (S,) float32, of a hand as large as the object's scale makes it.
+        height: (S,) float32, 0 to 1 along the held parts, or along the region of a measured map.
+        hand_length_m: (S,) float32, scaled with the object.
     """
 
     points: NDArray[np.float32]
@@ -146,7 +146,7 @@ def sample_surface(mesh: Surface, count: int, seed_number: int) -> Points:
 def draw_session(task: MapTask, rows: Sequence[AffinityRow], number: int) -> Session:
     """One person's way of holding an object, as one of the rows of the affinity table says.
 
-    A person whose thumb and fingers do not end up on two sides of the object tries again.
+    If thumb and fingers do not end up on opposing sides of the object, the person tries again.
 
     Raises:
         InputError: nobody can hold the object as the drawn row says.
@@ -172,7 +172,7 @@ def draw_session(task: MapTask, rows: Sequence[AffinityRow], number: int) -> Ses
 
 
 def map_contacts(task: MapTask, rows: Sequence[AffinityRow]) -> ContactMap:
-    """The population's map of an object and task, and the maps of its first people, the sessions.
+    """The population's map of an object and task, and the maps of its first people (the sessions).
 
     Args:
         rows: of the affinity table, for this object and task.
@@ -186,7 +186,7 @@ def map_contacts(task: MapTask, rows: Sequence[AffinityRow]) -> ContactMap:
 def of_sessions(
     task: MapTask, probability: NDArray[np.float64], shown: Sequence[Session]
 ) -> ContactMap:
-    """The contact map of a population's probability (N,) and the sessions drawn for it."""
+    """Contact map from a population's probability (N,) and the sessions drawn for it."""
     points, grips = task.points, [person.row.grip for person in shown]
     return ContactMap(
         points=points.points_m.astype(np.float32),

@@ -1,4 +1,4 @@
-"""Contact maps on disk: one array a field, checked when they are read."""
+"""Contact maps on disk: one array per field, checked when read."""
 
 from __future__ import annotations
 
@@ -11,22 +11,22 @@ from grasptypes.contact_maps.contact_map import ContactMap
 from grasptypes.errors import InputError
 from grasptypes.files import read_npz, write_npz
 
-# Fields with one row a session, and with one row a point of the surface.
+# Fields with one row per session, and with one row per surface point.
 BY_SESSION = ("style", "grip", "part", "approach", "closing", "centre_m", "height", "hand_length_m")
 BY_POINT = ("normals", "part_index", "probability")
 
 
 def write_contact_map(contact_map: ContactMap, path: str | Path) -> None:
-    """Write an .npz with one array a field."""
+    """Write an .npz with one array per field."""
     write_npz(path, {field.name: getattr(contact_map, field.name) for field in fields(ContactMap)})
 
 
 def read_contact_map(path: str | Path) -> ContactMap:
-    """Read what :func:`write_contact_map` wrote.
+    """Read a file of :func:`write_contact_map`.
 
     Raises:
-        InputError: an array is missing, has another length than the others, or holds values that
-            are no probabilities.
+        InputError: an array is missing, has the wrong length, or has values that are not
+            probabilities.
     """
     arrays = read_npz(path)
     for field in fields(ContactMap):

@@ -1,9 +1,9 @@
-"""Where a person's hand touches an object that it holds in a given way.
+"""Where a person's hand touches an object for a given way of holding it.
 
-A hand is laid on an object digit by digit. A digit of a power grip lies in a plane and follows the
-convex outline of the object's cut by that plane, as skin spanning a hollow would; a digit of a
-precision grip touches with its pad, where a straight line out of the grip's centre leaves the
-object. Lengths are fractions of the hand's length, so that one description fits every person.
+The hand is placed digit by digit. In a power grip a digit is in a plane and follows the convex
+outline of the object's cross-section, like skin spanning a hollow; in a precision grip it touches
+with its pad where a straight line from the grip's centre leaves the object. Lengths are fractions
+of the hand's length, so that one description fits every person.
 """
 
 from __future__ import annotations
@@ -25,14 +25,14 @@ class HumanHand:
 
     Attributes:
         length_m: wrist to the tip of the middle finger.
-        breadth_m: across the four fingers' bases.
+        breadth_m: across the bases of the four fingers.
         finger_reach_m: along the surface from the palm's centre to a fingertip.
         thumb_reach_m: the same to the thumb's tip.
         palm_half_m: half of the touching palm, across the handle.
-        palm_radius_m: of the palm's patch when the fingers are spread.
+        palm_radius_m: radius of the palm's patch when the fingers are spread.
         finger_half_width_m: half the breadth of a finger.
-        pad_radius_m: of a fingertip's patch.
-        span_m: farthest that a fingertip reaches from the centre of a precision grip.
+        pad_radius_m: radius of a fingertip's patch.
+        span_m: maximum distance of a fingertip from the centre of a precision grip.
         softness_m: depth by which skin gives way.
     """
 
@@ -54,20 +54,20 @@ class HumanHand:
         return cls(length_m, **lengths)
 
     def finger_offsets_m(self, count: int = 4) -> Array:
-        """(count,) places of that many neighbouring fingers beside each other, around zero."""
+        """(count,) positions of `count` neighbouring fingers side by side, centred on zero."""
         return (np.arange(count) - (count - 1) / 2) * self.breadth_m / 4
 
 
 @dataclass(frozen=True)
 class Placement:
-    """Where the hand is (object frame, metres; directions are unit vectors at right angles).
+    """Pose of the hand (object frame, metres; directions are orthogonal unit vectors).
 
     Attributes:
         centre_m: (3,) between palm, fingers and thumb.
         palm_side: (3,) from the centre to the palm.
-        axis: (3,) the fingers lie beside each other along it.
+        axis: (3,) along which the fingers are side by side.
         closing: (3,) from the thumb to the fingers.
-        fingers: how many fingers touch in a precision grip, 2 to 4.
+        fingers: number of fingers that touch in a precision grip, 2 to 4.
     """
 
     centre_m: Array
@@ -136,7 +136,7 @@ def _tripod(surface: HeldSurface, place: Placement, hand: HumanHand) -> list[Arr
     touched = []
     chosen = (THUMB_DEG, *np.linspace(-60.0, 60.0, place.fingers))
     for angle_deg in chosen:
-        # A finger that would have to reach too far along a long object moves in beside the others.
+        # A finger that would have to reach too far along a long object moves in towards the others.
         for share in (1.0, 0.5, 0.0):
             turn = THUMB_DEG if angle_deg == THUMB_DEG else share * angle_deg
             direction = _around(place, turn)
@@ -152,7 +152,7 @@ def _pinch(surface: HeldSurface, place: Placement, hand: HumanHand) -> list[Arra
 
 
 def _rim(surface: HeldSurface, place: Placement, hand: HumanHand) -> list[Array]:
-    """As a pinch, but through the nearest wall, not through the whole object."""
+    """Like a pinch, but across the nearest wall instead of the whole object."""
     return _oppose(surface, place, hand, 2 * hand.pad_radius_m)
 
 
@@ -178,7 +178,7 @@ def _around(place: Placement, angle_deg: float) -> Array:
 def _exit(
     surface: HeldSurface, origin_m: Array, direction: Array, radius_m: float, reach_m: float
 ) -> int | None:
-    """Index of the last point facing `direction` on a thick line out of the origin, if any."""
+    """Index of the last point facing `direction` on a thick line from the origin, if any."""
     offset = surface.points_m - origin_m
     along = offset @ direction
     aside = np.linalg.norm(offset - along[:, None] * direction, axis=1)
@@ -188,7 +188,7 @@ def _exit(
 
 
 def _pad(surface: HeldSurface, index: int, radius_m: float) -> Array:
-    """A patch (N,) of that radius around a point, on what faces the same way."""
+    """Patch (N,) of the given radius around a point, on surface that faces the same way."""
     distance = np.linalg.norm(surface.points_m - surface.points_m[index], axis=1)
     return _plateau(distance / radius_m) * _facing(surface.normals @ surface.normals[index])
 
@@ -205,8 +205,8 @@ def _trace(
     """Contact (N,) of a digit from under the palm towards `direction`, `reach_m` along the outline.
 
     Args:
-        offset_m: of the digit's plane from the centre along the hand's axis.
-        half_width_m: half the digit's breadth; a finger's where it is left out.
+        offset_m: offset of the digit's plane from the centre, along the hand's axis.
+        half_width_m: half the digit's breadth; default: a finger's.
     """
     width_m = hand.finger_half_width_m if half_width_m is None else half_width_m
     across = np.cross(place.palm_side, direction)
@@ -232,10 +232,10 @@ def _trace(
 
 
 def _plateau(ratio: Array) -> Array:
-    """1 well below a ratio of 1, 0.5 there, 0 well above: a patch with an edge, not a blur."""
+    """1 well below a ratio of 1, 0.5 at 1, 0 well above: a patch with an edge, not a blur."""
     return np.asarray(np.exp2(-(np.abs(ratio) ** 4)))
 
 
 def _facing(cosine: Array) -> Array:
-    """0 for surfaces turned away from the skin, 1 from 60 degrees on."""
+    """0 for surfaces facing away from the skin, rising to 1 at 60 degrees."""
     return np.asarray(np.clip(2.0 * cosine, 0.0, 1.0))

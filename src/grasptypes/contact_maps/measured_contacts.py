@@ -1,7 +1,8 @@
-"""Contact maps from a measurement: where people warmed an object, and hands that would do so.
+"""Contact maps from a measurement: where people warmed an object, and hands that match it.
 
-A scan shows where people touch, not how one of them held. Each session therefore lays a person's
-hand on the warm region in many ways and takes one, the likelier the better its print agrees.
+A scan shows where people touched, not how each of them held the object. Each session therefore
+places a person's hand on the warm region in many ways and draws one of them, weighted by how well
+its handprint agrees with the map.
 """
 
 from __future__ import annotations
@@ -24,20 +25,20 @@ from grasptypes.settings.contact_maps import MeasuredMapSettings
 
 Array = NDArray[np.float64]
 GRIPS = tuple(STYLE_OF_GRIP)
-# Fewer warm points have no longest extent that a hand could lie along.
+# Fewer warm points do not define a longest extent.
 MIN_WARM_POINTS = 3
 
 
 def read_probability(path: str | Path, unit_m: float, task: MapTask) -> Array:
-    """The probability (N,) of touch that a scan shows at an object's surface points.
+    """Touch probability (N,) at an object's surface points according to a scan.
 
     Args:
-        path: a PLY as `read_contact_scan` takes it, in the object's frame.
+        path: a PLY for `read_contact_scan`, in the object's frame.
         unit_m: length of the file's unit; the file has the size of the object before scaling.
 
     Raises:
-        InputError: the file is no contact map, shows no difference between places, lies elsewhere
-            than the object, or shows nothing warm.
+        InputError: the file is not a contact map, has no contrast, does not match the object's
+            position, or shows nothing warm.
     """
     scan, measured = read_contact_scan(path, task.scale * unit_m), task.settings.measured
     if np.nanmin(scan.intensity) == np.nanmax(scan.intensity):
@@ -59,15 +60,15 @@ def read_probability(path: str | Path, unit_m: float, task: MapTask) -> Array:
 
 
 def transferred(scan: ContactScan, points_m: Array, measured: MeasuredMapSettings) -> Array:
-    """Probability (N,) at points (N, 3) m of the nearest vertex; NaN where it or none is seen."""
+    """Probability (N,) of the vertex nearest to points (N, 3) m; NaN if unseen or too far away."""
     distance_m, nearest = cKDTree(scan.points_m).query(points_m)
     values = sigmoid(scan.intensity, measured.coldest, measured.warmest)[nearest]
     return np.where(distance_m <= measured.max_gap_m, values, np.nan)
 
 
 def sigmoid(intensity: Array, coldest: float, warmest: float) -> Array:
-    """Map intensities to probabilities by the sigmoid that takes the least to `coldest` and the
-    largest to `warmest` (ContactDB's post-processing: 0.05 and 0.95); NaN stays."""
+    """Map intensities to probabilities by the sigmoid that maps the minimum to `coldest` and the
+    maximum to `warmest` (ContactDB's post-processing: 0.05 and 0.95); NaN stays NaN."""
     low, high = np.nanmin(intensity), np.nanmax(intensity)
     ends = np.log([coldest / (1 - coldest), warmest / (1 - warmest)])
     logit = ends[0] + (intensity - low) / (high - low) * (ends[1] - ends[0])
@@ -75,7 +76,7 @@ def sigmoid(intensity: Array, coldest: float, warmest: float) -> Array:
 
 
 def map_measured_contacts(task: MapTask, probability: Array, path: str | Path) -> ContactMap:
-    """The contact map of a measured probability (N,) and of sessions drawn from it.
+    """Contact map from a measured probability (N,) and sessions drawn from it.
 
     Args:
         path: where the probability comes from.
@@ -101,11 +102,11 @@ def map_measured_contacts(task: MapTask, probability: Array, path: str | Path) -
 def draw_measured_session(
     task: MapTask, probability: Array, number: int, grips: Sequence[str] = GRIPS
 ) -> Session | None:
-    """One person's way of holding an object where it was measured to be held.
+    """One person's way of holding an object where a measured map is warm.
 
     Args:
-        probability: (N,) of touch.
-        grips: of the affinity table, that the person may choose from.
+        probability: (N,) touch probability.
+        grips: grips of the affinity table to choose from.
 
     Returns:
         None if thumb and fingers end up on two sides in none of the placements.
@@ -115,7 +116,7 @@ def draw_measured_session(
     hand = task.draw_hand(draw)
     warm = probability >= settings.threshold
     held = HeldSurface(points.points_m, points.normals, warm)
-    # Skin also lies beside what is warm, or a palm would agree with a map of fingertips.
+    # The print may extend beyond the warm region; otherwise a palm would match a map of fingertips.
     margin_m = cKDTree(points.points_m[warm]).query(points.points_m)[0]
     reached = HeldSurface(points.points_m, points.normals, margin_m <= 2 * hand.pad_radius_m)
     sessions, weights = [], []
@@ -133,11 +134,11 @@ def draw_measured_session(
 
 
 def _any_row(draw: np.random.Generator, grips: Sequence[str]) -> AffinityRow:
-    """Any of the grips from any side, as a row of the affinity table on the whole object."""
+    """A random grip from a random side, like a row of the affinity table for the whole object."""
     grip, approach, axis = (str(draw.choice(choices)) for choices in (grips, APPROACHES, AXES))
     return AffinityRow((), grip, approach, axis, 0.0, 1.0, 1.0, "measured")
 
 
 def _agreement(contact: Array, probability: Array) -> float:
-    """Cosine between a print and a map: 1 if it covers all that is warm, and no more."""
+    """Cosine similarity of a handprint and a map: 1 if it covers exactly the warm region."""
     return float(contact @ probability / np.linalg.norm(contact) / np.linalg.norm(probability))

@@ -1,4 +1,4 @@
-"""Convex outlines of plane cuts, which a closing finger follows."""
+"""Convex outlines of cross-sections, which a closing finger follows."""
 
 from __future__ import annotations
 
@@ -8,14 +8,14 @@ from scipy.spatial import ConvexHull, cKDTree
 
 Array = NDArray[np.float64]
 
-# Step along an outline: far below the breadth of a finger.
+# Step along an outline; far below the breadth of a finger.
 OUTLINE_STEP_M = 0.001
 
 
 def convex_outline(cut: Array) -> Array | None:
-    """Convex outline (K, 2) of a cut, from above its centre clockwise and closed; None if too thin.
+    """Closed convex outline (K, 2) of a cut, clockwise from above its centre; None if too thin.
 
-    Clockwise is towards the digit's direction (+x) from the palm (+y).
+    Clockwise is from the palm (+y) towards the digit's direction (+x).
     """
     if len(cut) < 8 or np.ptp(cut, axis=0).min() < 1e-3:
         return None
@@ -38,7 +38,7 @@ def convex_outline(cut: Array) -> Array | None:
 def along_outline(outline: Array, points: Array) -> tuple[Array, Array, Array]:
     """Arc length (N,), distance (N,) and outward normal (N, 2) of the outline nearest to points.
 
-    The outline is taken as a chain of points `OUTLINE_STEP_M` apart, as fine as skin can feel.
+    The outline is sampled at points `OUTLINE_STEP_M` apart.
     """
     step = np.diff(outline, axis=0)
     length = np.linalg.norm(step, axis=1)

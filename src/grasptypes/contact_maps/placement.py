@@ -19,10 +19,10 @@ def place_hand(
     settings: PlacementSettings,
     draw: np.random.Generator,
 ) -> tuple[Placement, float]:
-    """Put a hand on the held parts as the hold says, with a person's own deviation from it.
+    """Place a hand on the held parts according to a hold, with a person's random deviation.
 
     Args:
-        surface: of the object, its mask on the held parts.
+        surface: surface of the object, with a mask of the held parts.
 
     Returns:
         The placement and the height (0 to 1) of its centre along the held parts.
@@ -42,7 +42,7 @@ def place_hand(
     roll = draw.uniform(0, 2 * np.pi) if end_on else draw.normal(0.0, settings.roll_sd_rad)
     if hold.grip != "rim":
         axis = np.cos(roll) * axis + np.sin(roll) * np.cross(palm_side, axis)
-    # Either hand, and the thumb at either end.
+    # Left or right hand, and the thumb at either end.
     axis = axis * draw.choice([-1.0, 1.0])
     closing = np.cross(palm_side, axis) * draw.choice([-1.0, 1.0])
     fingers = int(draw.integers(2, 5))
@@ -58,7 +58,7 @@ def _axis(name: str, held: Array) -> Array:
 
 
 def _centre(held: Array, axis: Array, height: float, slice_m: float) -> Array:
-    """Middle of a slice at that height: half way between its extremes, so holes do not matter."""
+    """Middle of a slice at a given height: halfway between its extremes, so holes do not matter."""
     along = held @ axis
     low, high = along.min(), along.max()
     at = low + height * (high - low)
@@ -80,7 +80,7 @@ def _palm_side(
         side["xyz".index(hold.approach[1])] = 1.0 if hold.approach[0] == "+" else -1.0
     tilted = side + draw.normal(0.0, tilt_sd, 3)
     if hold.grip in ("wrap", "pinch"):
-        # Fingers side by side along the axis close around it, so the palm stands beside it.
+        # Fingers side by side along the axis close around it, so the palm is beside it.
         flat = tilted - (tilted @ long_axis) * long_axis
         if np.linalg.norm(flat) > 0.3:
             tilted = flat
@@ -90,7 +90,7 @@ def _palm_side(
 def _rim_centre(
     held: Array, palm_side: Array, depth_m: float, draw: np.random.Generator
 ) -> tuple[Array, Array]:
-    """A place on the edge that faces the palm, below it by `depth_m`, and the edge's direction."""
+    """A point `depth_m` below the edge that faces the palm, and the direction of the edge."""
     middle = (held.min(axis=0) + held.max(axis=0)) / 2
     outward = _any_normal(palm_side)
     angle = draw.uniform(0, 2 * np.pi)
@@ -108,7 +108,7 @@ def _rim_centre(
 
 
 def _any_normal(direction: Array) -> Array:
-    """A unit vector at right angles to a direction, the same for the same direction."""
+    """A unit vector orthogonal to a direction; deterministic."""
     other = np.eye(3)[np.argmin(np.abs(direction))]
     normal = np.cross(direction, other)
     return normal / np.linalg.norm(normal)

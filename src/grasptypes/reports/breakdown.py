@@ -1,4 +1,4 @@
-"""The models' results taken apart: by grasp type, and by object."""
+"""The models' results by grasp type and by object."""
 
 from __future__ import annotations
 
@@ -51,14 +51,14 @@ OBJECT_SCHEMA = pa.DataFrameSchema(
 
 
 def by_type(predictions: pd.DataFrame, samples: pd.DataFrame) -> pd.DataFrame:
-    """How often each grasp type is named, and rightly, over all folds and seeds.
+    """Recall, precision and accuracy of each grasp type over all folds and seeds.
 
     Args:
         predictions: of `results.PREDICTION_SCHEMA`.
         samples: of `samples.SAMPLE_SCHEMA`.
 
     Returns:
-        a table of `TYPE_SCHEMA` without its source, six rows.
+        a table of `TYPE_SCHEMA` without the column of the label source, six rows.
     """
     truth = labels_for(predictions, samples)
     named = chosen(predictions[list(LOGITS)].to_numpy())
@@ -99,7 +99,7 @@ def by_object(predictions: pd.DataFrame, samples: pd.DataFrame) -> pd.DataFrame:
 
 
 def by_left_out_object(metrics: pd.DataFrame) -> pd.DataFrame:
-    """The same for objects left out of training, whose names are the groups of the metrics.
+    """The same for objects left out of training; their names are the groups in the metrics.
 
     Args:
         metrics: of `results.METRIC_SCHEMA`.
@@ -109,7 +109,7 @@ def by_left_out_object(metrics: pd.DataFrame) -> pd.DataFrame:
 
 
 def labels_for(predictions: pd.DataFrame, samples: pd.DataFrame) -> np.ndarray:
-    """(N, types) truth values for each prediction; without a task those of all tasks together."""
+    """(N, types) labels for each prediction; without a task, those of all tasks together."""
     alone = samples.set_index(["object", "task"])[list(LABELS)]
     joint = alone.groupby("object").max()
     joint.index = pd.MultiIndex.from_arrays(
@@ -121,6 +121,6 @@ def labels_for(predictions: pd.DataFrame, samples: pd.DataFrame) -> np.ndarray:
 
 
 def _share(part: np.ndarray, whole: np.ndarray) -> np.ndarray:
-    """`part` / `whole`, rounded; not a number where there is nothing to share."""
+    """`part` / `whole`, rounded; NaN where `whole` is 0."""
     share: np.ndarray = np.divide(part, whole, out=np.full(len(part), np.nan), where=whole > 0)
     return share.round(6)

@@ -1,4 +1,4 @@
-"""How often each grasp type occurs for an object and a task: ours beside the published counts."""
+"""Grasp-type counts for each object and task: ours and the published ones."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from grasptypes.predictors.metrics import angular_similarity
 from grasptypes.seeds import rng
 
 MEAN = "mean"
-# Draws that the mean over (object, task) does not depend on in its third digit.
+# Number of draws at which the mean over (object, task) is stable in its third digit.
 RESAMPLES = 1000
 PUBLISHED = tuple(f"published_{name}" for name in COUNTS)
 
@@ -39,15 +39,15 @@ DISTRIBUTION_SCHEMA = pa.DataFrameSchema(
 def compare_distributions(
     samples: pd.DataFrame, published: pd.DataFrame, file: str | Path = "published labels"
 ) -> pd.DataFrame:
-    """Angular similarity of our counts and the published ones, the mean in the last row.
+    """Angular similarity of our counts and the published ones, with the mean in the last row.
 
     Args:
         samples: of `samples.SAMPLE_SCHEMA`.
         published: of `samples.COUNT_SCHEMA`.
-        file: named in errors.
+        file: file name for errors.
 
     Returns:
-        A table of `DISTRIBUTION_SCHEMA`, a row for each (object, task) that both tables have.
+        A table of `DISTRIBUTION_SCHEMA`, one row per (object, task) in both tables.
 
     Raises:
         InputError: the tables have no (object, task) in common.
@@ -70,15 +70,15 @@ def compare_distributions(
 
 
 def _resampled(counts: np.ndarray, draw: np.random.Generator) -> float:
-    """Mean angular similarity of counts (K,) and of as many draws from their shares."""
+    """Mean angular similarity of counts (K,) and equally many draws from their shares."""
     drawn = draw.multinomial(int(counts.sum()), counts / counts.sum(), RESAMPLES)
     return round(float(angular_similarity(drawn, counts).mean()), 4)
 
 
 def describe(counts: pd.DataFrame) -> tuple[float, float]:
-    """Types per (object, task), and types that differ between an object's two tasks, both means.
+    """Mean number of types per (object, task), and of types that differ between the two tasks.
 
-    The paper has 3.5 and 1.1. A type differs if it occurs for one task only.
+    The paper has 3.5 and 1.1. A type differs if it occurs for only one task.
 
     Args:
         counts: columns object, task and those of `samples.COUNTS`.

@@ -27,19 +27,19 @@ LABELLED = {
 MEASURES = {"sim": "angular similarity", "acc": "multilabel accuracy", "prec": "precision"}
 CONSTANT_LABEL = "constant answer fitted to the other objects"
 OURS, PAPER, CEILING, CONSTANT = "#2a6f97", "#c9a227", "#6c757d", "#b23a48"
-# End of the axes, and the share of their height that the numbers at the feet of the bars take.
+# End of the axes, and the share of their height for the numbers at the base of the bars.
 TOP, FOOT = 1.02, 0.2
-# Width over which the seeds of a model lie beside each other, in places on the axis.
+# Width over which the seeds of a model are spread, in axis units.
 SPREAD = 0.5
 
 
 def draw_table(table: pd.DataFrame) -> Figure:
-    """Bars of mean and spread for each model and measure, beside the paper and the ceiling.
+    """Bars of mean and spread for each model and measure, with the paper's figures and the ceiling.
 
-    Where the table has no figures of the paper, the constant answer of the others is drawn instead.
+    If the table has no figures from the paper, the constant answer of the others is drawn instead.
 
     Args:
-        table: of `results.RESULT_SCHEMA`; one row of panels a label source.
+        table: of `results.RESULT_SCHEMA`; one row of panels per label source.
     """
     used = table[table["n_folds"] > 0]
     sources = _sources(used)
@@ -60,7 +60,7 @@ def draw_table(table: pd.DataFrame) -> Figure:
 
 
 def _bottom(rows: pd.DataFrame) -> float:
-    """Where the shared axis starts: below all bars and spreads, and the numbers at their feet."""
+    """Start of the shared axis: below all bars, spreads, and the numbers at their base."""
     lows = [rows[f"{short}_mean"] - rows[f"{short}_sd"] for short in MEASURES]
     lows += [rows[f"paper_{short}"] for short in MEASURES]
     lowest = float(np.nanmin(np.concatenate(lows)))
@@ -68,7 +68,7 @@ def _bottom(rows: pd.DataFrame) -> float:
 
 
 def _steps(axes: Axes, heights: pd.Series, colour: str, label: str) -> None:
-    """A level of its own above each bar."""
+    """A separate level above each bar."""
     place = np.arange(len(heights))
     axes.hlines(
         heights, place - 0.45, place + 0.45, colors=colour, linestyles="dashed", label=label
@@ -76,7 +76,7 @@ def _steps(axes: Axes, heights: pd.Series, colour: str, label: str) -> None:
 
 
 def _numbers(axes: Axes, places: np.ndarray, texts: list[str], colour: str) -> None:
-    """Numbers at the feet of bars."""
+    """Numbers at the base of bars."""
     foot = axes.get_xaxis_transform()
     for place, text in zip(places, texts, strict=True):
         number = axes.text(place, 0.03, text, transform=foot, ha="center", va="bottom")
@@ -111,10 +111,10 @@ def _bars(axes: Axes, rows: pd.DataFrame, short: str) -> None:
 
 
 def draw_folds(metrics: pd.DataFrame) -> Figure:
-    """A dot a fold and seed, their mean, and the paper's figure, for each model and measure.
+    """A dot per fold and seed, their mean, and the paper's figure, for each model and measure.
 
     Args:
-        metrics: of `results.METRIC_SCHEMA`; one row of panels a label source.
+        metrics: of `results.METRIC_SCHEMA`; one row of panels per label source.
     """
     sources = _sources(metrics)
     figure = Figure(figsize=(10, 0.6 + 3.2 * len(sources)), layout="constrained")
@@ -129,10 +129,10 @@ def draw_folds(metrics: pd.DataFrame) -> Figure:
 
 
 def draw_losses(curves: dict[tuple[str, str], pd.DataFrame]) -> Figure:
-    """Mean loss of training and test an epoch, and the range over folds and seeds.
+    """Mean training and test loss per epoch, and the range over folds and seeds.
 
     Args:
-        curves: tables of `results.CURVE_SCHEMA` by labels and model; one row of panels a source.
+        curves: tables of `results.CURVE_SCHEMA` by labels and model; one row of panels per source.
     """
     sources = list(dict.fromkeys(labels for labels, _ in curves))
     models = [model for model in VARIANTS if (sources[0], model) in curves]
@@ -180,7 +180,7 @@ def _curve(axes: Axes, curves: pd.DataFrame, name: str, colour: str) -> None:
 
 
 def draw_types(table: pd.DataFrame) -> Figure:
-    """Recall, precision and accuracy of each grasp type and model; a row a label source.
+    """Recall, precision and accuracy of each grasp type and model; one row per label source.
 
     Args:
         table: of `breakdown.TYPE_SCHEMA`.
@@ -199,7 +199,7 @@ def draw_types(table: pd.DataFrame) -> Figure:
 
 
 def draw_objects(table: pd.DataFrame) -> Figure:
-    """Similarity of each object and model, known and unseen; two panels a label source.
+    """Similarity of each object and model, known and unseen; two panels per label source.
 
     Args:
         table: of `breakdown.OBJECT_SCHEMA`.
@@ -222,7 +222,7 @@ def draw_objects(table: pd.DataFrame) -> Figure:
 
 
 def _heat_map(axes: Axes, values: pd.DataFrame) -> AxesImage:
-    """Shares 0 to 1 in colours and numbers; columns are models."""
+    """Shares from 0 to 1 as colours and numbers; columns are models."""
     numbers = values.to_numpy(dtype=float)
     image = axes.imshow(numbers, cmap="viridis", vmin=0, vmax=1, aspect="auto")
     axes.set_yticks(range(len(values)), [str(name).replace("_", " ") for name in values.index])
@@ -236,7 +236,7 @@ def _heat_map(axes: Axes, values: pd.DataFrame) -> AxesImage:
 
 
 def draw_generalisation(table: pd.DataFrame) -> Figure:
-    """A panel a label source; full lines with pictures an object equal, dashed ones with views.
+    """One panel per label source; solid lines: images per object equal, dashed lines: views equal.
 
     Args:
         table: of `generalisation.GENERALISATION_SCHEMA`.
@@ -282,7 +282,7 @@ def _lines(axes: Axes, rows: pd.DataFrame) -> None:
 
 
 def _sources(table: pd.DataFrame) -> list[str]:
-    """The label sources of a table, in its order."""
+    """The label sources of a table, in order."""
     return list(dict.fromkeys(table["labels"]))
 
 
@@ -295,17 +295,17 @@ def _rows_of_panels(
 
 
 def _models(known: Collection[str]) -> list[str]:
-    """The models among those known, in the order of Table I."""
+    """The known models, in the order of Table I."""
     return [model for model in VARIANTS if model in known]
 
 
 def _name_models(axes: Axes, models: Sequence[str], **style: Any) -> None:
-    """Write models' names below the places 0, 1, ..."""
+    """Write the models' names below positions 0, 1, ..."""
     names = [LABELLED[model] for model in models]
     axes.set_xticks(range(len(names)), names, rotation=25, ha="right", **style)
 
 
 def _legend(figure: Figure, **style: Any) -> None:
-    """One legend for all panels, of what the first one shows."""
+    """One legend for all panels, with the entries of the first one."""
     handles, names = figure.axes[0].get_legend_handles_labels()
     figure.legend(handles, names, frameon=False, **style)

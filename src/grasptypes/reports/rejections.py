@@ -1,4 +1,4 @@
-"""Grasps that were rejected, and why: examples of every reason, as in the paper's Figure 3."""
+"""Examples of rejected grasps for every reason, as in Figure 3 of the paper."""
 
 from __future__ import annotations
 
@@ -19,13 +19,11 @@ IN_WORDS = {
 
 
 def examples(attempts: pd.DataFrame, number: int) -> pd.DataFrame:
-    """For each reason that occurs the attempts that looked best before they were rejected.
-
-    That is those of the lowest energy, one of each object as long as there are objects.
+    """For each reason, the rejected attempts of lowest energy, from different objects if possible.
 
     Args:
         attempts: of `grasps.ATTEMPT_SCHEMA`, of all objects.
-        number: of examples a reason, at most.
+        number: maximum number of examples per reason.
 
     Returns:
         rows of `attempts`, in the order of `REASONS` and of energy.
@@ -42,13 +40,13 @@ def examples(attempts: pd.DataFrame, number: int) -> pd.DataFrame:
 
 
 def heading(attempts: pd.DataFrame, reason: str) -> str:
-    """A reason in words, and how many attempts it ended."""
+    """A reason in words, and the number of attempts rejected for it."""
     rows = attempts[attempts.reason == reason]
     return f"{IN_WORDS[reason]} ({reason}): {len(rows)} of {len(attempts)} attempts"
 
 
 def caption(row: Any) -> str:
-    """Object, task and what was measured, or else the reason, of one row of the attempts."""
+    """Object, task, and the measured value or the reason of an attempt."""
     turned_deg = np.rad2deg(row.turned_rad)
     measured = {
         "penetrates": f"{row.penetration_m * 1e3:.1f} mm deep",

@@ -13,8 +13,8 @@ from grasptypes.predictors.scoring import SHORT
 def markdown(table: pd.DataFrame) -> str:
     """A table of :data:`RESULT_SCHEMA` as Markdown, mean ± spread in one cell.
 
-    Without figures of the paper there is no column for them, and a sentence says instead how the
-    models stand to the constant answer that is fitted to the other objects.
+    Without figures from the paper, their column is replaced by a sentence that compares the models
+    with the constant answer fitted to the other objects.
     """
     paper = table[[f"paper_{short}" for short in SHORT.values()]].notna().any(axis=None)
     heads = ["model", "labels", "similarity", "accuracy", "precision"]
@@ -43,7 +43,7 @@ def markdown(table: pd.DataFrame) -> str:
 
 
 def beside_constant(table: pd.DataFrame) -> str:
-    """Similarity of the models less that of the constant of the others, a line a label source.
+    """Similarity of the models minus that of the constant of the others, one line per source.
 
     Args:
         table: of :data:`RESULT_SCHEMA`, on unseen objects.

@@ -1,4 +1,4 @@
-"""The tables of results: mean and spread over folds and seeds, beside paper and ceilings."""
+"""The tables of results: mean and spread over folds and seeds, with the paper and ceilings."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ PAPER = {
 LITERATURE = ("literature", 0.93)
 # The best constant answer for the joint labels of all tasks.
 CONSTANT_JOINT = "best_constant_joint"
-# The constant answer fitted to the other objects, by whether joint labels are asked for.
+# The constant answer fitted to the other objects, by whether labels are joint.
 CONSTANT_OF_OTHERS = {False: "constant_of_others", True: "constant_of_others_joint"}
 _SHARE = pa.Check.in_range(0, 1)
 RESULT_SCHEMA = pa.DataFrameSchema(
@@ -53,19 +53,19 @@ def tabulate(
 ) -> pd.DataFrame:
     """The rows of Table I, or of Table II on unseen objects, for one label source.
 
-    ``ceiling_*`` is what the row's model could reach with perfect recognition of the object: the
+    ``ceiling_*`` is what the model could reach with perfect recognition of the object: the
     task-blind ceiling for the model that does not know the task, 1 for the others.
-    ``sim_over_constant`` is the similarity on an unseen object over that of the constant answer
+    ``sim_over_constant`` is the similarity on an unseen object minus that of the constant answer
     fitted to the other objects, mean and standard error over the objects left out (paired). The
-    reference predictors and the literature stand in rows of their own; the model that ignores the
-    task is asked for joint labels, so that it has constant answers of its own.
+    reference predictors and the literature have their own rows; the model that ignores the task
+    predicts joint labels and therefore has its own constant answers.
 
     Args:
-        metrics: rows of :data:`METRIC_SCHEMA`, all of these labels.
+        metrics: rows of :data:`METRIC_SCHEMA` for this label source.
         samples: the label source's table of :mod:`grasptypes.labels.samples`.
-        labels: its name.
-        unseen: the groups are objects left out of training. The paper and the literature measured
-            none: their columns stay empty. Else those of ``sim_over_constant`` do.
+        labels: name of the label source.
+        unseen: whether the groups are objects left out of training. If so, the columns of the paper
+            and the literature are empty; otherwise those of ``sim_over_constant`` are.
 
     Returns:
         a table of :data:`RESULT_SCHEMA`.
@@ -93,13 +93,13 @@ def tabulate(
 
 
 def constant_rows(table: pd.DataFrame, labels: str) -> pd.DataFrame:
-    """For each trained model the row of the constant answer of the others to what it is asked.
+    """For each trained model, the row of the corresponding constant answer of the others.
 
     Args:
         table: of :data:`RESULT_SCHEMA`, on unseen objects.
 
     Returns:
-        index model, columns those of the table.
+        index model, with the columns of the table.
     """
     rows = table[table["labels"] == labels].set_index("model")
     models = rows.index[rows["n_folds"] > 0]
@@ -110,10 +110,10 @@ def constant_rows(table: pd.DataFrame, labels: str) -> pd.DataFrame:
 def _reference_scores(
     samples: pd.DataFrame, constants: Mapping[bool, pd.DataFrame]
 ) -> pd.DataFrame:
-    """Index reference predictor, columns measures: the ceilings and the constant answers.
+    """The ceilings and constant answers: index reference predictor, columns measures.
 
     Args:
-        constants: those of the other objects, by whether joint labels are asked for.
+        constants: those of the other objects, by whether labels are joint.
     """
     reference = ceilings(labels_asked(samples, joint=False))
     joint_reference = ceilings(labels_asked(samples, joint=True))
@@ -124,11 +124,11 @@ def _reference_scores(
 
 
 def _trained(group: pd.DataFrame, unseen: bool) -> dict[str, object]:
-    """A trained model's own columns; their spread is over folds and seeds, or over unseen objects.
+    """Columns of a trained model; the spread is over folds and seeds, or over unseen objects.
 
     Args:
-        group: its rows of :data:`METRIC_SCHEMA`.
-        unseen: repetitions are averaged before the spread is taken.
+        group: the model's rows of :data:`METRIC_SCHEMA`.
+        unseen: whether to average repetitions before computing the spread.
     """
     spread = group.groupby("group")[list(SHORT)].mean() if unseen else group
     return (
@@ -152,7 +152,7 @@ def _paper(model: str) -> dict[str, float]:
 
 
 def _typed(table: pd.DataFrame) -> pd.DataFrame:
-    """What a row does not have is empty: texts "", counts 0, numbers NaN."""
+    """Fill missing cells: text with "", counts with 0, numbers with NaN."""
     texts, counts = ["backbone", "weights"], ["n_folds", "n_seeds"]
     table[texts] = table[texts].fillna("")
     table[counts] = table[counts].fillna(0).astype(int)
@@ -162,11 +162,12 @@ def _typed(table: pd.DataFrame) -> pd.DataFrame:
 
 
 def _over(constant: pd.DataFrame | None, group: pd.DataFrame) -> dict[str, float]:
-    """A model's similarity over that of a constant answer, paired by object.
+    """A model's similarity minus that of a constant answer, paired by object.
 
     Args:
-        constant: of :func:`grasptypes.predictors.ceilings.constant_of_others`; None gives nothing.
-        group: the model's rows of :data:`METRIC_SCHEMA`, their groups being objects left out.
+        constant: of :func:`grasptypes.predictors.ceilings.constant_of_others`; for None the
+            result is empty.
+        group: the model's rows of :data:`METRIC_SCHEMA`, grouped by the object left out.
     """
     if constant is None:
         return {}

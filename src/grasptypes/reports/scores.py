@@ -1,4 +1,4 @@
-"""The results in short: one small file a model and label source, and one on the grasps."""
+"""Summaries of the results: a small file per model and label source, and one for the grasps."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ import pandas as pd
 from grasptypes.predictors.scoring import SHORT
 
 MEASURES = {short: measure.split("_")[-1] for measure, short in SHORT.items()}
-DIGITS = 4  # two beyond what a table of the paper shows
+DIGITS = 4  # two more than in the paper's tables
 
 
 def model_scores(
@@ -19,10 +19,10 @@ def model_scores(
     """Each model's measures by label source and model.
 
     Args:
-        known, unseen: tables of `results.RESULT_SCHEMA`, on known objects and on those left out.
+        known, unseen: tables of `results.RESULT_SCHEMA` for known and left-out objects.
 
     Returns:
-        similarity, accuracy and precision, and the same below ``unseen`` where it was measured.
+        similarity, accuracy and precision, and the same under ``unseen`` if measured.
     """
     scores = {name: row for name, row in _measures(known).items() if name[1] in models}
     for name, row in _measures(unseen).items():
@@ -32,12 +32,12 @@ def model_scores(
 
 
 def grasp_scores(dataset: pd.DataFrame, distribution: pd.DataFrame | None) -> Mapping[str, Any]:
-    """How many grasps are valid, and how alike their types' counts are to the published ones.
+    """Number of valid grasps, and similarity of their type counts to the published ones.
 
     Args:
         dataset: of `dataset.DATASET_SCHEMA`.
-        distribution: of `distribution.DISTRIBUTION_SCHEMA`, whose last row is the mean; None if
-            no object has published counts, and then there is no similarity.
+        distribution: of `distribution.DISTRIBUTION_SCHEMA`, with the mean in the last row; None if
+            no object has published counts, in which case there is no similarity.
     """
     scores: dict[str, Any] = {
         "tried": len(dataset),

@@ -1,4 +1,4 @@
-"""The pictures of all grasps of an object, with their types or the reasons of their rejection."""
+"""Images of all grasps of an object, with their types or reasons for rejection."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ Picture = NDArray[np.uint8]
 
 
 def read_named_pictures(path: str | Path) -> dict[str, Picture]:
-    """The pictures (H, W, 3) of a data/screenshots archive by their file names."""
+    """The images (H, W, 3) of a data/screenshots archive by file name."""
     with zipfile.ZipFile(path) as archive:
         return {
             name: np.asarray(Image.open(io.BytesIO(archive.read(name))).convert("RGB"))
@@ -30,7 +30,7 @@ def read_named_pictures(path: str | Path) -> dict[str, Picture]:
 def session_groups(
     rows: pd.DataFrame, pictures: Mapping[str, Picture], tasks: Sequence[str]
 ) -> list[Group]:
-    """A group for each task, with the pictures in the order of the sessions.
+    """One group per task, with the images in the order of the sessions.
 
     Args:
         rows: of `dataset.DATASET_SCHEMA`, of one object.

@@ -1,4 +1,4 @@
-"""Sheets of pictures, each under its caption, in groups under their headings."""
+"""Contact sheets: images with captions, in groups with headings."""
 
 from __future__ import annotations
 
@@ -10,14 +10,14 @@ from numpy.typing import NDArray
 from PIL import Image, ImageDraw, ImageFont
 
 INK, WARNING = "#202020", "#b00020"
-# Heights of letters as shares of a picture's height, and the least that can be read, pixels.
+# Letter heights as shares of an image's height, and the smallest legible one in pixels.
 CAPTION_SHARE, HEADING_SHARE, LEAST_PX = 0.075, 0.11, 12
-# Height of a line of text as a multiple of its letters', and its distance from the left, pixels.
+# Line height as a multiple of the letter height, and left margin in pixels.
 LINE, MARGIN_PX = 1.5, 5
 
 
 class Tile(NamedTuple):
-    """A picture (H, W, 3) uint8 and what stands above it."""
+    """An image (H, W, 3) uint8 and its caption."""
 
     picture: NDArray[np.uint8]
     caption: str
@@ -25,19 +25,19 @@ class Tile(NamedTuple):
 
 
 class Group(NamedTuple):
-    """Pictures that start a new row, under a heading if there is one."""
+    """Images that start a new row, with an optional heading."""
 
     heading: str
     tiles: Sequence[Tile]
 
 
 def sheet(groups: Sequence[Group], columns: int, height_px: int) -> NDArray[np.uint8]:
-    """All groups below each other, their pictures in rows of `columns`, `height_px` high each.
+    """All groups below each other, with images in rows of `columns`, each `height_px` high.
 
-    Pictures are as wide as the first one, shrunk to the height.
+    All images get the width of the first one, scaled to the height.
 
     Returns:
-        (H, W, 3) picture.
+        (H, W, 3) image.
     """
     shapes = [tile.picture.shape for group in groups for tile in group.tiles] or [(1, 1)]
     width_px = round(shapes[0][1] * height_px / shapes[0][0])
@@ -59,7 +59,7 @@ def _tile(tile: Tile, width_px: int, height_px: int) -> NDArray[np.uint8]:
 
 
 def _text(text: str, width_px: int, letters_px: float, colour: str) -> NDArray[np.uint8]:
-    """A line of text, its letters made smaller where it would not fit."""
+    """A line of text, with smaller letters if it would not fit."""
     letters_px = max(letters_px, LEAST_PX)
     line = Image.new("RGB", (width_px, round(letters_px * LINE)), "white")
     draw = ImageDraw.Draw(line)

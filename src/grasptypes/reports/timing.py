@@ -1,7 +1,7 @@
-"""What the jobs cost on this machine, from Snakemake's benchmarks, for the report.
+"""Cost of the jobs on this machine, from Snakemake's benchmarks, for the report.
 
 ``python -m grasptypes.reports.timing`` writes ``build/timing.csv`` and ``build/timing.png``. Costs
-differ from run to run, so nothing that is versioned may depend on them.
+differ between runs, so nothing that is versioned may depend on them.
 """
 
 from __future__ import annotations
@@ -35,10 +35,10 @@ logger = logging.getLogger(__name__)
 
 
 def read_timing(folder: str | Path) -> pd.DataFrame:
-    """The costs of each rule, the dearest first: a table of `TIMING_SCHEMA`, empty without files.
+    """Cost of each rule, the most expensive first: a table of `TIMING_SCHEMA`, empty without files.
 
     Args:
-        folder: of files ``<rule>.tsv`` and ``<rule>/<job>.tsv``.
+        folder: folder with files ``<rule>.tsv`` and ``<rule>/<job>.tsv``.
     """
     folder = Path(folder)
     jobs = [
@@ -61,7 +61,7 @@ def read_timing(folder: str | Path) -> pd.DataFrame:
 
 
 def draw_timing(table: pd.DataFrame) -> Figure:
-    """Wall and CPU time, and memory, a bar a rule.
+    """Wall and CPU time, and memory, one bar per rule.
 
     Args:
         table: of `TIMING_SCHEMA`.
@@ -93,7 +93,7 @@ def _time(seconds: float) -> str:
 
 
 def main() -> None:
-    """Write table and figure of the current folder's benchmarks, or remove old ones without any."""
+    """Write table and figure of the current folder's benchmarks; remove old ones without any."""
     logging.basicConfig(level=logging.INFO, format="%(message)s")
     table = read_timing(BENCHMARKS)
     files = TARGET / "timing.csv", TARGET / "timing.png"

@@ -1,4 +1,4 @@
-"""Show trained models in MLflow. Files are the truth: the store can be rebuilt at any time."""
+"""Publish trained models to MLflow, from files: the store can be rebuilt at any time."""
 
 from __future__ import annotations
 
@@ -31,14 +31,14 @@ def publish(
     data: Mapping[str, Sequence[Path]],
     store: Store,
 ) -> dict[str, str]:
-    """Upsert a parent run for each model, its folds below it, and its predictor.
+    """Upsert a parent run for each model, with its folds as children and its predictor.
 
-    Without the backbone's weights the runs are published and the predictors are not. The store is
-    locked for one model at a time, so that nobody waits for all of them.
+    Without the backbone's weights, the runs are published without predictors. The store is locked
+    for one model at a time, so that other processes need not wait for all of them.
 
     Args:
-        settings: what the models were trained with, the `predictors` section of params.yaml.
-        data: what they were made from, by name: `backbone`, `renders` and whatever else.
+        settings: the `predictors` section of params.yaml that the models were trained with.
+        data: what they were made from, by name: `backbone`, `renders` and others.
 
     Returns:
         Name of each parent run to its key.
@@ -68,12 +68,12 @@ def run_record(
 ) -> RunRecord:
     """The parent run of a model and label source, with its folds and seeds as children.
 
-    The keys are made from the tables and the settings alone: the same results are the same runs,
-    in whatever store, checkout or order they are published.
+    The keys depend only on the tables and the settings: the same results are the same runs in any
+    store and checkout, published in any order.
 
     Args:
-        settings: what it was trained with, nested as section ``predictors`` of params.yaml.
-        tags: what is no part of the result, such as the commit; kept as it is when a run is new.
+        settings: what it was trained with, nested like the section ``predictors`` of params.yaml.
+        tags: information that is not part of the result, such as the commit; set only on new runs.
     """
     metrics = read_table(model.metrics, METRIC_SCHEMA)
     curves = read_table(model.curves, CURVE_SCHEMA)
@@ -97,7 +97,7 @@ def run_record(
             tags=tags,
         )
         children.append(child)
-    # Named as the folds' own, so that the UI shows both in one column.
+    # Named like those of the folds, so that the UI shows both in one column.
     summary = {name: float(metrics[name].mean()) for name in METRICS}
     summary |= {f"{name}_sd": float(metrics[name].std()) for name in METRICS}
     losses = _losses(curves.groupby("epoch").mean(numeric_only=True))
@@ -116,7 +116,7 @@ def _digest(*parts: bytes) -> str:
 
 
 def version_tags(data: Mapping[str, Sequence[Path]]) -> dict[str, str]:
-    """Of the data what ``sha256sum`` gives for its listing, the commit, and whether it is dirty."""
+    """Checksums of the data (of the ``sha256sum`` listing), the commit, and whether it is dirty."""
     tags = {}
     for name, paths in data.items():
         listing = "".join(f"{file_sha256(path)}  {path.name}\n" for path in sorted(paths))

@@ -1,4 +1,4 @@
-"""A predictor as MLflow serves it: pictures and tasks in, probabilities out."""
+"""The predictor for MLflow serving: images and tasks in, probabilities out."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from grasptypes.predictors.predictor_files import load_predictor, read_card
 from grasptypes.predictors.weights import weights_file
 from grasptypes.renders.photos import padded
 
-# `predict.photos.min_px` of params.yaml, which does not travel with the model.
+# `predict.photos.min_px` of params.yaml, which is not stored with the model.
 MIN_PX = 32
 
 
@@ -31,9 +31,9 @@ class GraspTypePredictor(PythonModel):
         self._predictor = load_predictor(artifacts["tensors"], artifacts["card"], weights)
 
     def predict(self, context, model_input, params=None):  # type: ignore[no-untyped-def]
-        """Softmax and sigmoid of each picture's logits; pictures are padded to squares.
+        """Softmax and sigmoid of each image's logits; images are padded to squares.
 
-        MLflow would take type hints for a schema.
+        There are no type hints, because MLflow would interpret them as a schema.
 
         Args:
             model_input: ``image`` (N, H, W, 3) uint8 and ``task`` (N,) names.
@@ -42,7 +42,7 @@ class GraspTypePredictor(PythonModel):
             ``probability`` and ``sigmoid``, (N, types) float32 each.
 
         Raises:
-            MlflowException: what is asked cannot be answered.
+            MlflowException: the request is invalid.
         """
         pictures = np.asarray(model_input["image"], dtype=np.uint8)
         tasks = np.asarray(model_input["task"]).astype(str).reshape(-1)
@@ -55,7 +55,7 @@ class GraspTypePredictor(PythonModel):
         if min(pictures.shape[1:3]) < MIN_PX:
             size = f"{pictures.shape[2]} x {pictures.shape[1]}"
             raise _refusal(f"image is {size} pixels; each side needs {MIN_PX}")
-        # MLflow has cut such values to 0 and 1 by now: nearly all of them to 0.
+        # MLflow has already truncated such values to 0 and 1, nearly all of them to 0.
         if pictures.max(axis=(1, 2, 3)).min() <= 1:
             raise _refusal("image has no value above 1: values from 0 to 255 are needed")
         pictures = np.stack([padded(picture) for picture in pictures])
@@ -69,7 +69,7 @@ class GraspTypePredictor(PythonModel):
 
 
 def _refusal(message: str) -> MlflowException:
-    """What the server answers with status 400, without a stack trace."""
+    """An error that the server answers with status 400, without a stack trace."""
     return MlflowException(message, INVALID_PARAMETER_VALUE)
 
 

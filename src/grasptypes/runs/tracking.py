@@ -1,7 +1,7 @@
 """Runs in MLflow, made from finished files.
 
-The store is a view: every run is found again by a key made from what it shows, so publishing
-twice adds nothing, and a deleted store is rebuilt with the same runs.
+The store is a view: every run is identified by a key made from its content, so publishing twice
+adds nothing, and a deleted store is rebuilt with the same runs.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ MODEL_TAG = "grasptypes.model"
 # MLflow's own tag for a shared view of the runs.
 VIEW = "results"
 VIEW_TAG = f"mlflow.sharedViewState.{VIEW}"
-# Copied into every model, with the versions of what it imports.
+# Copied into every model, with the versions of its imports.
 PACKAGE = Path(grasptypes.errors.__file__).parent
 SERVING_PACKAGES = (
     *("efficientnet-lite-pytorch", "mlflow", "numpy", "pandas", "pandera", "pillow", "pyarrow"),
@@ -44,13 +44,13 @@ SERVING_PACKAGES = (
 # Images of any size, and a task for each.
 IMAGES = TensorSpec(np.dtype(np.uint8), (-1, -1, -1, 3), "image")
 PREDICTOR_INPUTS = Schema([IMAGES, TensorSpec(np.dtype(str), (-1,), "task")])
-_BATCH = 1000  # the most metrics MLflow takes at once
-_PARAM_LENGTH = 6000  # the longest parameter MLflow takes
+_BATCH = 1000  # MLflow's maximum number of metrics per call
+_PARAM_LENGTH = 6000  # MLflow's maximum length of a parameter
 
 
 @dataclass(frozen=True)
 class TrainedModel:
-    """The files of one training job, and when it began and ended (milliseconds since 1970)."""
+    """The files of one training job, and its start and end (milliseconds since 1970)."""
 
     metrics: Path
     curves: Path
@@ -61,7 +61,7 @@ class TrainedModel:
 
 @dataclass(frozen=True)
 class RunRecord:
-    """What a run shows. A run with the same key, which is made from its content, is updated."""
+    """Content of a run. The key is made from it; an existing run with that key is updated."""
 
     key: str
     name: str
@@ -69,7 +69,7 @@ class RunRecord:
     params: Mapping[str, str]
     metrics: Mapping[str, float]
     curves: Mapping[str, Sequence[float]]
-    """A value an epoch, the first epoch is 1."""
+    """One value per epoch, starting at epoch 1."""
     tags: Mapping[str, str]
     children: Sequence[RunRecord] = ()
 
@@ -77,7 +77,7 @@ class RunRecord:
 class Store:
     """An MLflow store in one SQLite file, written by one process at a time.
 
-    Its folder also takes the models.
+    The models are stored in the same folder.
     """
 
     def __init__(self, settings: TrackingSettings) -> None:
@@ -88,13 +88,13 @@ class Store:
 
     @contextlib.contextmanager
     def opened(self) -> Iterator[None]:
-        """Write within; others wait. The lock ends with the process, however it ends.
+        """Context for writing, while other processes wait; the lock ends with the process.
 
-        MLflow itself fails when two processes create the tables of a new file together, and tries
-        for more than an hour to open a file that is locked or damaged.
+        Without it, MLflow fails when two processes create the tables of a new file, and retries for
+        more than an hour to open a file that is locked or damaged.
 
         Raises:
-            InputError: the store is locked, read-only, damaged or out of reach.
+            InputError: the store is locked, read-only, damaged or unreachable.
         """
         os.environ.setdefault("MLFLOW_DISABLE_TELEMETRY", "true")
         try:
@@ -111,7 +111,7 @@ class Store:
             raise InputError(self.database, "", f"cannot be written: {reason}; {later}") from error
 
     def page(self) -> str:
-        """Where MLflow's UI shows the runs with the measures as columns, below its own address."""
+        """Path in MLflow's UI of the runs with the measures as columns."""
         with self.opened():
             query = f"workflowType=machine_learning&viewStateShareKey={VIEW}"
             return f"#/experiments/{self._experiment}/runs?{query}"
@@ -119,7 +119,8 @@ class Store:
     def upsert(self, record: RunRecord, parent: str | None = None) -> str:
         """Write a run and its children; returns its id.
 
-        A run that is there keeps its tags: later commits and data are not those it was made from.
+        An existing run keeps its tags, because later commits and data are not what it was made
+        from.
         """
         query = f"tags.`{KEY_TAG}` = '{record.key}'"
         found = self._client.search_runs([self._experiment], query, max_results=1)
@@ -132,7 +133,7 @@ class Store:
             run = self._client.create_run(self._experiment, start_time=start_ms, tags=tags)
         identity = run.info.run_id
         if run.info.status != "FINISHED":
-            # The run's own times: when an interrupted call is repeated, no value is there twice.
+            # With the run's own times, repeating an interrupted call adds no duplicate values.
             self._write(identity, record, run.info.start_time)
             self._client.set_terminated(identity, "FINISHED", end_time=record.times_ms[1])
         for child in record.children:
@@ -140,23 +141,23 @@ class Store:
         return str(identity)
 
     def offer_view(self, metrics: Sequence[str]) -> None:
-        """Keep a view of the runs that has these metrics as columns."""
+        """Store a view of the runs with these metrics as columns."""
         state = json.dumps({"selectedColumns": [f"metrics.`{name}`" for name in metrics]})
         self._client.set_experiment_tag(self._experiment, VIEW_TAG, state)
 
     def log_model(self, run: str, model: TrainedModel, weights: Path, picture: np.ndarray) -> None:
-        """Log a servable predictor with a run, unless the same one is there.
+        """Log a servable predictor with a run, unless it is already there.
 
-        The run keeps the time at which its training ended.
+        The run keeps the end time of its training.
 
         Args:
-            weights: those of the backbone.
-            picture: an example, (H, W, 3) uint8.
+            weights: weights of the backbone.
+            picture: an example image, (H, W, 3) uint8.
         """
         known, key = self._client.get_run(run), file_sha256(model.tensors)
         if known.data.tags.get(MODEL_TAG) == key:
             return
-        # Halves of calls that were cut off, or older ones.
+        # Remains of interrupted calls, or older models.
         mine = f"source_run_id = '{run}'"
         for old in self._client.search_logged_models([self._experiment], filter_string=mine):
             self._client.delete_logged_model(old.model_id)
@@ -178,10 +179,11 @@ class Store:
         self._client.set_tag(run, MODEL_TAG, key)
 
     def _check_writable(self) -> None:
-        """Begin to write, and leave it at that."""
+        """Try to write, and roll back."""
         with contextlib.closing(sqlite3.connect(self.database, timeout=self.patience_s)) as probe:
             probe.isolation_level = None
-            # A table, since SQLite touches neither file nor journal before something changes.
+            # Create a table, since SQLite touches neither file nor journal before something
+            # changes.
             probe.execute("BEGIN IMMEDIATE")
             probe.execute("CREATE TABLE grasptypes_probe (a)")
             probe.execute("ROLLBACK")

@@ -1,4 +1,4 @@
-"""The MLflow UI on the store that params.yaml names; ``python -m grasptypes.runs.ui PORT``."""
+"""The MLflow UI for the store named in params.yaml; ``python -m grasptypes.runs.ui PORT``."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ HOST = "127.0.0.1"
 
 
 def serve(port: str) -> None:
-    """Print the address of the runs and serve them, on this machine alone, with one process.
+    """Print the address of the runs and serve them with one process, on this machine only.
 
     Raises:
         InputError: the store cannot be opened.

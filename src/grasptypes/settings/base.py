@@ -1,4 +1,4 @@
-"""What all settings share: strict types, no unknown keys, and one line for the first mistake."""
+"""Base of all settings: strict types, no unknown keys, and a one-line message for errors."""
 
 from __future__ import annotations
 
@@ -19,13 +19,13 @@ from grasptypes.errors import InputError
 
 T = TypeVar("T")
 
-# What the last parts of a key's name say about its unit.
+# Units, by the suffix of a key's name.
 _UNITS = {
     "_kg_m3": "kg/m3", "_m_s2": "m/s2", "_rad_s": "rad/s", "_kg": "kg", "_m3": "m3", "_m": "metres",
     "_rad": "radians", "_deg": "degrees", "_s": "seconds", "_n": "newtons", "_nm": "newton metres",
     "_px": "pixels", "_mb": "MB", "_lux": "lux",
 }  # fmt: skip
-# What is wrong with a value, by the type of pydantic's error; the rest is in pydantic's words.
+# Messages by type of pydantic error; the others keep pydantic's own message.
 _PROBLEMS = {
     "int_type": "is not an integer",
     "int_from_float": "is not an integer",
@@ -49,11 +49,11 @@ _PROBLEMS = {
 
 
 class MisplacedError(ValueError):
-    """A value that its own limits allow and another value does not.
+    """A value within its own limits that conflicts with another value.
 
     Args:
-        key: within the section that finds it, with dots; empty if it is the section itself.
-        message: what is wrong and what would be right.
+        key: dotted key within the section that raises it; empty for the section itself.
+        message: what is wrong and what is allowed.
     """
 
     def __init__(self, key: str, message: str) -> None:
@@ -74,24 +74,24 @@ def _present(name: str) -> str:
     return name
 
 
-# YAML has lists; settings that are shared by all jobs of a run must not change.
+# Tuples instead of YAML's lists: settings shared by all jobs of a run must not change.
 Many = Annotated[tuple[T, ...], Field(strict=False)]
 Unique = Annotated[tuple[T, ...], Field(strict=False), AfterValidator(_unique)]
 Pair = Annotated[tuple[T, T], Field(strict=False)]
 Triple = Annotated[tuple[T, T, T], Field(strict=False)]
-# Safe in file names and shells, and read back by every table.
+# Safe in file names and shells, and preserved by every table.
 Name = Annotated[str, StringConstraints(pattern="^[a-z][a-z0-9_]*$"), AfterValidator(_present)]
 
 
 def setting(meaning: str, **limits: Any) -> Any:
-    """A key of params.yaml: what it means (its name ends in the unit), and its limits."""
+    """A key of params.yaml: its meaning (the name ends in the unit) and limits."""
     return Field(description=meaning, **limits)
 
 
 class Settings(BaseModel):
-    """A section of params.yaml, checked when it is made and constant from then on.
+    """A section of params.yaml, checked on creation and immutable.
 
-    100.0 is no whole number, `true` is no number, NaN and infinity are none either.
+    100.0 is not an integer; `true`, NaN and infinity are not numbers.
     """
 
     model_config = ConfigDict(
@@ -103,7 +103,7 @@ class Settings(BaseModel):
         """The settings in `content`.
 
         Raises:
-            InputError: naming the file, the first wrong key, what is wrong, and what is allowed.
+            InputError: names the file, the first wrong key, what is wrong, and what is allowed.
         """
         try:
             return cls.model_validate(content)
@@ -116,7 +116,7 @@ class Settings(BaseModel):
 
 
 def _explained(error: ValidationError, section: type[Settings], path: str | Path) -> InputError:
-    """The first mistake as one line; an unknown key goes before what is missing in its place."""
+    """The first mistake as one line; unknown keys are reported before missing ones."""
     first = min(error.errors(), key=lambda found: found["type"] != "extra_forbidden")
     keys = [part for part in first["loc"] if part != "[key]"]
     problem, context = first["type"], first.get("ctx", {})
@@ -145,7 +145,7 @@ def _explained(error: ValidationError, section: type[Settings], path: str | Path
 
 
 def _described(section: type[Settings], keys: Sequence[int | str]) -> tuple[type[Settings], str]:
-    """The innermost section that keys lead to, and what the last of them means, with its unit."""
+    """The innermost section that keys lead to, and the meaning and unit of the last key."""
     meaning = ""
     for key in keys:
         fields = {field.alias or name: field for name, field in section.model_fields.items()}
@@ -158,7 +158,7 @@ def _described(section: type[Settings], keys: Sequence[int | str]) -> tuple[type
 
 
 def _sections(annotation: Any) -> Iterator[type[Settings]]:
-    """The sections that a type is made of."""
+    """The sections that a type contains."""
     if isinstance(annotation, type) and issubclass(annotation, Settings):
         yield annotation
     for part in get_args(annotation):

@@ -24,7 +24,7 @@ from grasptypes.settings.renders import ContactPictureSettings, GallerySettings,
 from grasptypes.settings.synthesis import SynthesisSettings
 from grasptypes.yaml_files import read_yaml
 
-# Images and features without a task go by this name.
+# Name for images and features without a task.
 NO_TASK = "none"
 
 
@@ -90,6 +90,6 @@ def read_params(path: str | Path) -> Params:
     """The parameters of a file.
 
     Raises:
-        InputError: the file cannot be read, or names the first wrong key.
+        InputError: the file cannot be read, or has a wrong key; names the first one.
     """
     return Params.check(read_yaml(path), path)

@@ -11,7 +11,7 @@ PLACE = "workflow/schemas/params.schema.json"
 
 
 def write_schema(path: str | Path = PLACE) -> None:
-    """Write the schema that the settings' types stand for."""
+    """Write the schema of the settings' types."""
     write_json(path, Params.model_json_schema())
 
 

@@ -18,14 +18,14 @@ from grasptypes.yaml_files import merge, read_yaml
 
 
 def copy_checkout(source: str | Path, target: str | Path, changes: str | Path) -> None:
-    """Copy the files git knows or would add, with ``params.yaml`` changed.
+    """Copy the files that git tracks or would add, with changes to ``params.yaml``.
 
-    Results that lie in ``target`` from an earlier call stay, so that a second run is incremental.
+    Results of an earlier call stay in ``target``, so that a second run is incremental.
 
     Args:
         source: root of a git checkout.
         target: folder to write to.
-        changes: YAML file laid over ``params.yaml``, section by section.
+        changes: YAML file whose values override those of ``params.yaml``.
 
     Raises:
         InputError: ``source`` is not a checkout, a YAML file cannot be read, or git is missing.

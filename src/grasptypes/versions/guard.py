@@ -1,4 +1,4 @@
-"""Start-up checks: one run a folder, nothing half written in it, and no cache of links."""
+"""Start-up checks: one run per folder, no half-written files, and no DVC cache of links."""
 
 from __future__ import annotations
 
@@ -18,14 +18,14 @@ ROOM_BYTES = 2**17
 
 
 class FolderLock:
-    """Makes sure that one process at a time computes in a folder.
+    """Ensures that only one process at a time computes in a folder.
 
-    The kernel releases the lock however the process ends: whoever has it knows that nobody else is
-    running. Snakemake's own lock stays after a kill and is switched off (profiles/default).
+    The kernel releases the lock however the process ends, so the holder knows that nobody else is
+    running. Snakemake's own lock survives a kill and is switched off (profiles/default).
 
     Args:
-        state: Snakemake's folder for what it notes.
-        patience_s: how long another process may hold the lock, such as a short dry run.
+        state: Snakemake's folder for its records.
+        patience_s: how long to wait for another process, such as a short dry run.
     """
 
     def __init__(self, state: str | Path = ".snakemake", patience_s: float = 2.0) -> None:
@@ -35,10 +35,11 @@ class FolderLock:
         )
 
     def take(self) -> bool:
-        """Hold the lock until the process ends, or say who holds it; returns whether we do.
+        """Acquire the lock until the process ends; if that fails, print the holder and return
+        False.
 
         Raises:
-            OSError: the folder cannot be written, is full, or its file system knows no locks.
+            OSError: the folder is not writable, the disk is full, or the file system has no locks.
         """
         self.path.parent.mkdir(exist_ok=True)
         try:
@@ -55,26 +56,26 @@ class FolderLock:
 
 
 def remove_leftovers(root: str | Path) -> None:
-    """Remove files that a killed run left half written; only for who holds the folder's lock.
+    """Remove half-written files of a killed run; the caller must hold the folder's lock.
 
-    Results are written under another name and renamed, so nobody ever reads one by halves.
+    Results are written under a temporary name and renamed, so a partial result is never read.
     """
     folders = (Path(root) / name for name in ("data", "models", "reports"))
     for path in [path for folder in folders for path in folder.rglob(f".*{TEMPORARY}")]:
         if path.is_dir():
             shutil.rmtree(path)
         else:
-            path.unlink(missing_ok=True)  # it lay in a folder that is gone
+            path.unlink(missing_ok=True)  # its folder may be gone
 
 
 def check_cache_links(root: str | Path) -> None:
-    """Refuse a DVC cache of hard or symbolic links.
+    """Reject a DVC cache of hard or symbolic links.
 
-    Through a link, a rerun writes into the cache itself: earlier versions are corrupted and stale
-    results pass for current ones. The checkout's own configuration outweighs those of the user.
+    Through a link, a rerun writes into the cache itself: earlier versions are corrupted, and stale
+    results look current. The checkout's configuration takes precedence over the user's.
 
     Raises:
-        InputError: naming DVC's configuration file and the setting.
+        InputError: names DVC's configuration file and the setting.
     """
     for path in (Path(root) / ".dvc" / name for name in ("config", "config.local")):
         settings = configparser.ConfigParser(strict=False, interpolation=None)

@@ -1,9 +1,9 @@
 """How each result was made, in one file that DVC versions along with the results.
 
-Snakemake keeps records in ``.snakemake``, with times, of all that was ever asked for. What decides
-whether a result is stale goes to ``data/provenance.json``, without times and for DVC's outs alone,
-so that it depends on the results only (``python -m grasptypes.versions.provenance`` writes it). A
-checkout that got its results from DVC turns it into Snakemake's records again.
+Snakemake keeps records, with times, of all past targets in ``.snakemake``. The information that
+decides about staleness goes to ``data/provenance.json``, without times and only for DVC's outs, so
+that the file depends only on the results (``python -m grasptypes.versions.provenance`` writes it).
+A checkout that got its results from DVC converts it back to Snakemake's records.
 """
 
 from __future__ import annotations
@@ -22,10 +22,10 @@ from grasptypes.errors import InputError, parsing
 from grasptypes.files import write_json, write_text
 
 PROVENANCE = "data/provenance.json"
-# The provenance that Snakemake's records stand for, by its checksum.
+# Checksum of the provenance that Snakemake's records correspond to.
 ADOPTED = ".snakemake/adopted_provenance"
 FILE_HASHES = ".snakemake/file_hashes.json"
-# What Snakemake compares; the format says how.
+# The fields that Snakemake compares, in its own format.
 COMPARED = (
     *("rule", "input", "input_checksums", "params", "code", "shellcmd"),
     *("software_stack_hash", "record_format_version"),
@@ -49,9 +49,9 @@ def write_provenance(root: Path) -> None:
 
 
 def adopt_provenance(root: Path) -> None:
-    """Give Snakemake records of results that came from elsewhere, such as from ``dvc pull``.
+    """Give Snakemake records of results from elsewhere, for example from ``dvc pull``.
 
-    Results that are not those of the provenance, because they were made anew since, keep theirs.
+    Results that differ from the provenance, because they were recomputed, keep their records.
 
     Raises:
         InputError: the provenance is damaged.
@@ -76,9 +76,9 @@ def adopt_provenance(root: Path) -> None:
 
 
 def times_ms(result: Path, root: Path = Path()) -> tuple[int, int]:
-    """When the job that made a result began and ended, milliseconds since 1970.
+    """Start and end of the job that made a result, milliseconds since 1970.
 
-    Of a result that came from elsewhere only the file's own time is known.
+    For a result from elsewhere only the file's own time is known.
     """
     record = FilePersistence(path=root / ".snakemake")._read_record(str(result))
     if record is None or record.starttime is None or record.endtime is None:
@@ -87,7 +87,7 @@ def times_ms(result: Path, root: Path = Path()) -> tuple[int, int]:
 
 
 def versioned_files(root: Path) -> list[str]:
-    """Every file below DVC's outs but the provenance, relative to the root, sorted."""
+    """All files in DVC's outs except the provenance, relative to the root, sorted."""
     stages = yaml.safe_load((root / "dvc.yaml").read_text(encoding="utf-8"))["stages"].values()
     outs = [out for stage in stages for out in stage.get("outs", []) + stage.get("metrics", [])]
     names = [out if isinstance(out, str) else next(iter(out)) for out in outs]
