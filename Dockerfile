@@ -1,7 +1,7 @@
 # The workflow and its environment. Build: docker build -t grasptypes . ; run: docs/cluster.md.
 FROM python:3.11-slim
 
-# `make setup` would install the GL library, but not without root; kubectl is for profiles/kubernetes.
+# `make setup` cannot install the GL library without root; kubectl is for profiles/kubernetes.
 COPY workflow/envs/apt.txt /tmp/
 RUN apt-get update \
     && apt-get install --yes --no-install-recommends git kubernetes-client make $(grep -v '^#' /tmp/apt.txt) \
@@ -11,13 +11,13 @@ RUN useradd --create-home --uid 1000 grasptypes && install -d -o grasptypes /opt
 USER grasptypes
 WORKDIR /opt/grasptypes
 
-# The CPU build of torch where its index is named: --build-arg TORCH_INDEX=<URL> (README, "No GPU?").
+# The CPU build of torch, if its index is given: --build-arg TORCH_INDEX=<URL> (README, "No GPU?").
 ARG TORCH_INDEX=""
 COPY --chown=grasptypes requirements.lock ./
 RUN [ -z "$TORCH_INDEX" ] || { python3 -m venv .venv \
     && .venv/bin/pip install --no-cache-dir --index-url "$TORCH_INDEX" $(grep -oE '^torch(vision)?==[^ ]+' requirements.lock); }
 
-# First what the environment is made of: another parameter or rule does not install it again.
+# Environment files first, so that a changed parameter or rule does not reinstall it.
 ENV PIP_NO_CACHE_DIR=1
 COPY --chown=grasptypes Makefile pyproject.toml README.md LICENSE ./
 COPY --chown=grasptypes workflow/envs workflow/envs
@@ -26,5 +26,5 @@ RUN make setup
 
 COPY --chown=grasptypes . .
 ENV PATH=/opt/grasptypes/.venv/bin:$PATH DVC_NO_ANALYTICS=1 MLFLOW_DISABLE_TELEMETRY=true
-# What to call: most targets of `make` need more of a checkout than is in here.
+# Usage; most `make` targets need more of a checkout than the image contains.
 CMD ["sed", "-n", "/^## In a container/,$p", "/opt/grasptypes/docs/cluster.md"]

@@ -1,5 +1,5 @@
-# The paper's pipeline, in its order: objects, contact maps, grasps, labels, renders, predictors,
-# tables. `snakemake -j2 reports/table1.csv` is the main job; `snakemake -n` says what is to be done.
+# The pipeline of the paper: objects, contact maps, grasps, labels, renders, predictors, tables.
+# `snakemake -j2 reports/table1.csv` is the main job; `snakemake -n` shows what would run.
 import json
 import os
 import sys
@@ -8,7 +8,7 @@ from pathlib import Path
 from snakemake.utils import min_version
 
 min_version("9.17")
-# The code of this checkout, whatever is installed: a copy of the repository must run its own.
+# Use the code of this checkout, whatever is installed: a copy of the repository must run its own code.
 sys.path.insert(0, str(Path(workflow.basedir) / "src"))
 
 from grasptypes.errors import InputError
@@ -27,7 +27,7 @@ try:
         if folder_lock.take():
             remove_leftovers(".")
             adopt_provenance(Path.cwd())
-    # Before Snakemake reads them: it lets a duplicate key pass, and runs code if `__use_yte__` is set.
+    # Before Snakemake reads the file: it accepts duplicate keys, and runs code if `__use_yte__` is set.
     read_params("params.yaml")
 except (InputError, OSError) as error:
     sys.exit(f"error: {reason(error) or error}")
@@ -59,7 +59,7 @@ wildcard_constraints:
     task="|".join(TASKS),
 
 
-# A few seconds each, or in need of a network: on a cluster these run beside Snakemake.
+# Quick rules, and those that need a network: on a cluster they run next to Snakemake.
 localrules:
     publish_runs,
     fetch_published,
@@ -79,7 +79,7 @@ localrules:
     plot_losses,
 
 
-# Every job keeps its log and its cost under its own name, and has the same environment.
+# Every job has its own log and benchmark file, and the same environment.
 for each in workflow.rules:
     if not each.norun:
         each.log_modifier = each.benchmark_modifier = workflow.modifier.path_modifier
@@ -88,7 +88,7 @@ for each in workflow.rules:
         each.conda_env = "../envs/grasptypes.yaml"
 
 
-# A dry run may read along while another run computes; jobs start only for who holds the folder.
+# A dry run is allowed while another run computes; jobs only start with the folder's lock.
 onstart:
     if not folder_lock.take():
         sys.exit(1)
@@ -98,7 +98,7 @@ onerror:
     sys.stderr.write(failed_jobs.summary())
 
 
-# Everything that is computed for all users; what needs data of the user's own has targets of its own.
+# All results that every user can compute; those that need the user's own data have their own targets.
 rule results:
     input:
         [TABLES[labels] for labels in LABELS],
@@ -125,7 +125,7 @@ rule all:
         rules.publish_runs.output,
 
 
-# What `make report` shows: all results, and those of the other targets that are there as a whole.
+# What `make report` shows: all results, and those of the other targets if they are complete.
 EXTRAS = [rules.evaluate_labels, rules.replay_grasps, rules.compare_shapes]
 EXTRAS += [rules.tabulate_generalisation, rules.compare_plans]
 

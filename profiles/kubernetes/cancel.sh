@@ -1,3 +1,3 @@
 #!/bin/sh
-# Ends the Jobs named by the arguments, with their pods.
+# Deletes the Jobs named by the arguments, with their pods.
 exec kubectl delete --wait=false "$@"

@@ -22,9 +22,10 @@ def manifest(options: argparse.Namespace) -> dict[str, Any]:
     }
     pod = {
         "restartPolicy": "Never",
-        # Counts from when a node takes the pod; the Job's own would count its wait for one.
+        # Counts from the start of the pod on a node; the Job's own limit would include the wait for
+        # one.
         "activeDeadlineSeconds": 60 * options.minutes,
-        # Files on the volume belong to who runs Snakemake.
+        # Files on the volume belong to the user who runs Snakemake.
         "securityContext": {"runAsUser": os.getuid(), "runAsGroup": os.getgid()},
         "containers": [container],
         "volumes": [{"name": "shared", "persistentVolumeClaim": {"claimName": options.claim}}],

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Sets up the virtual environment $SETUP_VENV from the lock file with $SETUP_PYTHON, and the off-screen
-# GL library. What cannot be done ends with one line: what is missing, and the command that gets it.
+# GL library. On failure it prints one line: what is missing, and the command that installs it.
 set -euo pipefail
 
 python=$SETUP_PYTHON

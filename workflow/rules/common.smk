@@ -1,4 +1,4 @@
-# What all rules share: the checked parameters, the names to loop over, and content hashes.
+# Shared by all rules: the checked parameters, the names to loop over, and content hashes.
 import re
 
 from grasptypes.labels.label_sources import label_sources

@@ -1,4 +1,4 @@
-# What lies behind the tables: grasp types, objects, folds, losses, and what the jobs cost.
+# Details behind the tables: grasp types, objects, folds, losses, and the cost of the jobs.
 NAMES = [(labels, model) for labels in LABELS for model in MODELS]
 
 
@@ -94,8 +94,8 @@ rule plot_losses:
         "../scripts/plot_losses.py"
 
 
-# What jobs cost differs from run to run: `make report` draws it from the benchmarks of this machine,
-# and neither Snakemake nor DVC keeps it. Files without a rule that are shown in the report.
+# The cost of jobs differs between runs: `make report` draws it from this machine's benchmarks, and
+# neither Snakemake nor DVC stores it. This rule only shows existing files in the report.
 rule timing:
     input:
         figure=report(
@@ -111,4 +111,4 @@ rule timing:
             labels={"kind": "table"},
         ),
     message:
-        "The costs of all jobs are drawn"
+        "Costs of all jobs drawn"

@@ -1,4 +1,4 @@
-# Pictures of grasps, and the sheets that show them.
+# Images of grasps, and their sheets.
 
 
 rule picture_grasps:
@@ -15,7 +15,7 @@ rule picture_grasps:
         settings=config["gallery"],
         code=script_hash("picture_grasps"),
     message:
-        "Taking a picture of every grasp of {wildcards.object}"
+        "Rendering all grasps of {wildcards.object}"
     script:
         "../scripts/picture_grasps.py"
 
@@ -96,4 +96,4 @@ rule screenshots:
     input:
         expand(rules.picture_grasps.output, object=OBJECTS),
     message:
-        "All grasps are pictured"
+        "All grasps rendered"

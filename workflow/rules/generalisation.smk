@@ -1,5 +1,5 @@
-# What more shapes of every object buy on objects never seen: `snakemake reports/generalisation.csv`.
-# Its own target, since no other result needs it. Nothing but features is made of the variants.
+# Do more shapes of every object help on unseen objects? `snakemake reports/generalisation.csv`
+# A separate target, since no other result needs it. Only features are computed for the variants.
 
 
 rule picture_variants:
@@ -20,7 +20,7 @@ rule picture_variants:
         seed=config["seed"],
         code=script_hash("picture_variants"),
     message:
-        "Taking pictures of the variants of {wildcards.object}"
+        "Rendering variants of {wildcards.object}"
     script:
         "../scripts/picture_variants.py"
 
@@ -73,6 +73,6 @@ rule tabulate_generalisation:
         labels=LABELS,
         code=script_hash("tabulate_generalisation"),
     message:
-        "Tabulating what more shapes buy on unseen objects"
+        "Tabulating the effect of more shapes on unseen objects"
     script:
         "../scripts/tabulate_generalisation.py"

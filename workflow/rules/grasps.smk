@@ -1,4 +1,4 @@
-# Grasps: synthesized after the contact maps, tested in physics.
+# Grasps: synthesized from the contact maps, tested in physics.
 
 
 rule synthesize_grasps:
@@ -18,7 +18,7 @@ rule synthesize_grasps:
         seed=config["seed"],
         code=script_hash("synthesize_grasps"),
     message:
-        "Grasping {wildcards.object} for {wildcards.task}"
+        "Synthesizing grasps of {wildcards.object} for {wildcards.task}"
     script:
         "../scripts/synthesize_grasps.py"
 
@@ -27,4 +27,4 @@ rule grasps:
     input:
         expand(rules.synthesize_grasps.output, object=OBJECTS, task=TASKS),
     message:
-        "All grasps are synthesized"
+        "All grasps synthesized"

@@ -1,11 +1,11 @@
-# Grasp types by rule, the dataset, and how both compare with the published ones.
+# Grasp types by rule, the dataset, and the comparison of both with the published ones.
 
 
 rule evaluate_labels:
     input:
         published=PUBLISHED_CSV,
         references=REFERENCE_MESHES,
-        # Models of our own stand in where there is no scan.
+        # Our own models are used if there is no scan.
         own=expand("data/objects/{object}/surface.npz", object=without_scan()),
     output:
         table=report(
@@ -27,7 +27,7 @@ rule evaluate_labels:
         scale=config["replay"]["object_scale"],
         code=script_hash("evaluate_labels"),
     message:
-        "Comparing the rule's labels with the people's"
+        "Comparing the rule's labels with human labels"
     script:
         "../scripts/evaluate_labels.py"
 

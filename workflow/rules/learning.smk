@@ -1,8 +1,8 @@
-# From pictures and labels to features, folds and predictors.
+# From renders and labels to features, folds and predictors.
 MODELS = ["no_task", "task_vector", "task_in_image", "ignores_task"]
 SAMPLES = {"simulated": "data/samples.csv", "published": "data/published_samples.csv"}
 LABELS = config["labels"]
-# Whether there are unseen objects: when one is left out, another must be there to learn from.
+# Whether objects can be left out: at least one other must remain to learn from.
 UNSEEN = all(len(set(map(base_of, KNOWN[labels].objects))) > 1 for labels in LABELS)
 
 
@@ -36,7 +36,7 @@ rule prepare_backbone:
         weights=weights_choice(),
         code=script_hash("prepare_backbone"),
     message:
-        "Looking for the backbone's weights"
+        "Finding the backbone's weights"
     script:
         "../scripts/prepare_backbone.py"
 
@@ -67,7 +67,7 @@ rule split_folds:
         seed=config["seed"],
         code=script_hash("split_folds"),
     message:
-        "Splitting the pictures into folds"
+        "Splitting the images into folds"
     script:
         "../scripts/split_folds.py"
 
@@ -115,7 +115,7 @@ rule leave_out_objects:
         seed=config["seed"],
         code=script_hash("leave_out_objects"),
     message:
-        "Testing {wildcards.model} on objects it has not seen ({wildcards.labels} labels)"
+        "Testing {wildcards.model} on unseen objects ({wildcards.labels} labels)"
     script:
         "../scripts/leave_out_objects.py"
 
@@ -124,7 +124,7 @@ rule features:
     input:
         expand(rules.extract_features.output, object=OBJECTS),
     message:
-        "All features are extracted"
+        "All features extracted"
 
 
 rule predictors:
@@ -132,4 +132,4 @@ rule predictors:
         expand(rules.train_predictor.output, labels=LABELS, model=MODELS),
         expand(rules.leave_out_objects.output, labels=LABELS, model=MODELS) if UNSEEN else [],
     message:
-        "All predictors are trained and tested"
+        "All predictors trained and tested"

@@ -1,4 +1,4 @@
-# Objects and where people touch them.
+# Objects, and where people touch them.
 
 
 rule prepare_object:
@@ -30,7 +30,7 @@ rule prepare_variant:
         distance_grid="data/objects/{object}/distance_grid.npz",
         properties="data/objects/{object}/properties.json",
     wildcard_constraints:
-        # No object of this name, if there are no variants.
+        # Matches no object if there are no variants.
         object="|".join(VARIANTS) or "none",
     params:
         settings=variant_settings(),
@@ -66,17 +66,17 @@ rule objects:
     input:
         expand(rules.prepare_object.output, object=OBJECTS),
     message:
-        "All objects are prepared"
+        "All objects prepared"
 
 
 rule contact_maps:
     input:
         expand(rules.map_contacts.output, object=OBJECTS, task=TASKS),
     message:
-        "All contact maps are drawn"
+        "All contact maps computed"
 
 
-# Few users have the references, so it is not part of any other target.
+# Few users have the reference meshes, so this is not part of any other target.
 rule compare_shapes:
     input:
         references=REFERENCE_MESHES,

@@ -1,4 +1,4 @@
-# What choosing grasp types first buys; not part of the main job: snakemake -j2 reports/planning.csv
+# Does choosing grasp types first help? Not part of the main job: snakemake -j2 reports/planning.csv
 from types import SimpleNamespace
 
 ASKED = SimpleNamespace(labels=config["predict"]["labels"])
@@ -29,6 +29,6 @@ rule compare_plans:
         hand=hand_hashes("assets/barrett_hand"),
         code=script_hash("compare_plans"),
     message:
-        "Planning with types chosen first and without"
+        "Planning with and without choosing types first"
     script:
         "../scripts/compare_plans.py"

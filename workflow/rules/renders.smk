@@ -1,4 +1,4 @@
-# Pictures of the objects.
+# Renders of the objects.
 
 
 rule render_object:
@@ -13,7 +13,7 @@ rule render_object:
         seed=config["seed"],
         code=script_hash("render_object"),
     message:
-        "Taking pictures of {wildcards.object}"
+        "Rendering {wildcards.object}"
     script:
         "../scripts/render_object.py"
 
@@ -44,4 +44,4 @@ rule renders:
         expand(rules.render_object.output, object=OBJECTS),
         rules.plot_renders.output,
     message:
-        "All pictures are taken"
+        "All objects rendered"

@@ -1,7 +1,7 @@
-# The hand put at the published poses: a check of frames, scale and kinematics.
+# The hand at the published poses: a check of frames, scale and kinematics.
 
 
-# Needed only where the published table is named by its URL; the address holds its checksum.
+# Only needed if the published table is given by URL; the URL contains its checksum.
 rule fetch_published:
     output:
         table=FETCHED,
@@ -10,7 +10,7 @@ rule fetch_published:
         timeout_s=config["published"]["timeout_s"],
         code=script_hash("fetch_published"),
     message:
-        "Fetching the published grasps"
+        "Downloading the published grasps"
     script:
         "../scripts/fetch_published.py"
 
@@ -36,7 +36,7 @@ rule replay_grasps:
         "../scripts/replay_grasps.py"
 
 
-# Not part of any other target: what it finds was taken into assets/affinities.csv.
+# Not part of any other target: its findings are already in assets/affinities.csv.
 rule derive_affinities:
     input:
         surfaces=expand(rules.prepare_object.output.surface, object=OBJECTS),

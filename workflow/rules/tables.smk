@@ -78,19 +78,19 @@ use rule tabulate_simulated as tabulate_unseen with:
         unseen=True,
         code=script_hash("tabulate_results"),
     message:
-        "Tabulating the models on objects they have not seen"
+        "Tabulating the models on unseen objects"
 
 
-# The tables of the label sources in use.
+# The tables of the enabled label sources.
 TABLES = {
     "simulated": rules.tabulate_simulated.output,
     "published": rules.tabulate_published.output,
 }
-# Without an object of the authors there is nothing to compare the grasp types with.
+# Without any of the authors' objects there is nothing to compare with.
 DISTRIBUTION = rules.compare_distribution.output if KNOWN["published"].objects else []
 
 
-# What `dvc metrics show` and `dvc metrics diff` read.
+# Read by `dvc metrics show` and `dvc metrics diff`.
 rule summarise_scores:
     input:
         known=[TABLES[labels].table for labels in LABELS],

@@ -1,4 +1,4 @@
-# The runs in MLflow, a view of the models that can be made anew at any time: make ui
+# The runs in MLflow, a view of the models that can be rebuilt at any time: make ui
 
 
 rule publish_runs:
@@ -19,6 +19,6 @@ rule publish_runs:
         predictors=settings("predictors"),
         code=script_hash("publish_runs"),
     message:
-        "Showing the models in MLflow"
+        "Publishing the models to MLflow"
     script:
         "../scripts/publish_runs.py"

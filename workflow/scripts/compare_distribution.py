@@ -1,4 +1,4 @@
-"""Compare how often each grasp type occurs with the published counts."""
+"""Compare the grasp-type counts with the published ones."""
 
 from pathlib import Path
 

@@ -1,4 +1,4 @@
-"""Plan grasps of all objects with types chosen first and without, and compare the effort."""
+"""Plan grasps of all objects with and without choosing types first, and compare the effort."""
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -32,12 +32,12 @@ def cases(
     tasks: Mapping[str, int],
     params: Params,
 ) -> Sequence[Case]:
-    """All plans to be made.
+    """All plans to make.
 
     Args:
         inputs: those of `read_problem`, and the hand's URDF.
         folders: of the prepared objects, by name.
-        tasks: those that the labels know, each with its colour shift.
+        tasks: tasks with labels, each with its colour shift.
         params: all parameters.
     """
     model = params.predict.labels, params.predict.model
@@ -49,7 +49,7 @@ def cases(
         if name[0] != base_of(name[0]):
             continue
         kinds = [spelled(label.removeprefix("label_")) for label in LABELS if getattr(row, label)]
-        chosen = predicted.get(name) or predicted[name[0], ""]  # "" where the model sees no task
+        chosen = predicted.get(name) or predicted[name[0], ""]  # "" if the task is unseen
         types = {PREDICTED: chosen, LABELLED: kinds}
         geometry = read_object(folders[name[0]])
         context = PlanningContext(geometry, name[1], name[0], Path(inputs["hand"]), params)

@@ -1,4 +1,4 @@
-"""Derive where the published grasps hold the objects: the evidence behind assets/affinities.csv."""
+"""Derive where the published grasps hold the objects, as evidence for assets/affinities.csv."""
 
 from collections.abc import Mapping
 from pathlib import Path
@@ -29,7 +29,7 @@ def derive_affinities(
     scale: float,
     settings: ContactEvidenceSettings,
 ) -> None:
-    """Write one row a published grasp, their summary by hold, and the shares of grips by class."""
+    """Write one row per published grasp, a summary by hold, and the shares of grips by class."""
     grasps = read_published(published)
     known = grasps[grasps.hand_configuration.notna() & (grasps.grasp_type != "Invalid")]
     rows = []

@@ -1,4 +1,4 @@
-"""Compare the rule's labels with the people's on the published poses."""
+"""Compare the rule's labels with the human labels of the published poses."""
 
 import os
 from pathlib import Path
@@ -30,7 +30,7 @@ OWN_OBJECTS = Path("data/objects")
 def evaluate_labels(
     published: PublishedMeasures, settings: GraspTypeSettings, table: Path, figure: Path
 ) -> str:
-    """Score the thresholds of the parameters; returns a line to log."""
+    """Score the thresholds of the parameters; returns a line for the log."""
     predicted = classify(published.measures, settings.thresholds)
     scores = agreement(published, predicted, describe_fit(published.objects, settings.fitted_on))
     write_table(scores, table, AGREEMENT_SCHEMA)
@@ -43,7 +43,7 @@ def evaluate_labels(
 def validate_thresholds(
     published: PublishedMeasures, settings: GraspTypeSettings, table: Path
 ) -> str:
-    """Fit on all objects that `fitted_on` names but one, in turn; returns a line to log."""
+    """Cross-validate over the objects in `fitted_on`; returns a line for the log."""
     known = published.select(np.isin(published.objects, settings.fitted_on))
     scores = cross_validate(known, settings.softness)
     write_table(scores, table, THRESHOLD_SCHEMA)

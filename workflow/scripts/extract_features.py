@@ -1,4 +1,4 @@
-"""Extract an object's frozen features in every encoding of the task; one job an object."""
+"""Extract an object's frozen features in every encoding of the task; one job per object."""
 
 from collections.abc import Mapping
 from pathlib import Path
@@ -20,7 +20,7 @@ def extract_features(
     tasks: Mapping[str, int],
     settings: FeatureSettings,
 ) -> None:
-    """Write one array an encoding, (views, F) float32, to `target`."""
+    """Write one array per encoding, (views, F) float32, to `target`."""
     known = read_backbone_record(record)
     backbone = load_backbone(recorded_weights(known), known.input_px)
     shifts = encodings(tasks)

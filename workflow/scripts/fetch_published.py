@@ -1,4 +1,4 @@
-"""Fetch the authors' table of grasps from the URL that the user names."""
+"""Download the authors' table of grasps from the URL given by the user."""
 
 import os
 

@@ -1,4 +1,4 @@
-"""Label all grasps with the rule and count them: the dataset."""
+"""Label and count all grasps: the dataset."""
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -24,7 +24,7 @@ def label_all(
 
     Args:
         tables: of `grasps.GRASP_SCHEMA`.
-        grids: an object's distance grid by its name.
+        grids: distance grids by object.
     """
     grasps = pd.concat([read_table(path, GRASP_SCHEMA) for path in tables], ignore_index=True)
     return dataset_table(

@@ -1,4 +1,4 @@
-"""Test one model on objects it was not trained on, one left out at a time with its variants."""
+"""Test one model on objects left out of training, one at a time with its variants."""
 
 import torch
 
@@ -12,7 +12,7 @@ from grasptypes.tables import write_table
 
 
 def leave_out_objects(problem: LearningProblem, seed: int, target: str) -> None:
-    """Write the metrics of the problem's model, one row an object and seed."""
+    """Write the metrics of the problem's model, one row per object and seed."""
     settings, name = problem.settings, (problem.labels, problem.model)
     members = members_by_object(problem.examples.index["object"], settings.seeds)
     key = ("unseen", problem.model, seed)

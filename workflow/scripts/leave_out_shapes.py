@@ -1,4 +1,4 @@
-"""Test one model on objects left out in all their shapes, with more shapes of the others."""
+"""Test one model on objects left out in all shapes, trained on more shapes of the others."""
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -35,7 +35,7 @@ def leave_out_shapes(
     settings: Mapping[str, Any],
     seed: int,
 ) -> None:
-    """Write the metrics of the model `name` (labels, model), one row a trial, object and seed."""
+    """Write the metrics of the model `name` (labels, model), one row per trial, object and seed."""
     record = read_backbone_record(inputs["backbone"])
     known = VariantInputs(
         read_inputs(inputs["objects"], settings["tasks"]),

@@ -1,4 +1,4 @@
-"""Map where people touch an object for a task; one job an object and task."""
+"""Map where people touch an object for a task; one job per object and task."""
 
 from collections.abc import Sequence
 from pathlib import Path
@@ -16,7 +16,7 @@ from grasptypes.settings.contact_maps import ContactMapSettings
 def draw_map(
     task: MapTask, rows: Sequence[AffinityRow], measured: str | Path | None, unit: str
 ) -> ContactMap:
-    """The contact map: from a measured one (in its unit) if there is one, else from the rows."""
+    """The contact map: from a measured map (in its unit) if there is one, else from the rows."""
     if measured:
         probability = read_probability(measured, UNITS_M[unit], task)
         return map_measured_contacts(task, probability, measured)

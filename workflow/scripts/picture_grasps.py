@@ -1,4 +1,4 @@
-"""Take a picture of every grasp of an object, named as the dataset's Image column names it."""
+"""Render every grasp of an object, named as in the dataset's Image column."""
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path

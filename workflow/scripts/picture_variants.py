@@ -1,4 +1,4 @@
-"""Features of pictures of an object's variants; nothing else of them is kept."""
+"""Extract features of renders of an object's variants; nothing else of them is kept."""
 
 import tempfile
 from collections.abc import Mapping
@@ -23,7 +23,7 @@ from grasptypes.settings.renders import CameraSettings
 
 
 def variant_parts(name: str, objects: Mapping[str, Any], seed: int) -> list[Part]:
-    """What the camera sees of a variant; `objects` is the section of params.yaml."""
+    """The visible parts of a variant; `objects` is the section of params.yaml."""
     model = build_variant(name, VariationRanges.check(objects["variation"]), seed)
     content = visual_glb(scaled_parts(model, objects["scale"]), objects["resolution"]["crease_deg"])
     with tempfile.TemporaryDirectory() as folder:
@@ -35,7 +35,7 @@ def variant_parts(name: str, objects: Mapping[str, Any], seed: int) -> list[Part
 def picture_variants(
     record: str, target: str, name: str, settings: Mapping[str, Any], seed: int
 ) -> None:
-    """Write one array a variant and encoding, (views, F) float32, named `mug_v01/use`."""
+    """Write one array per variant and encoding, (views, F) float32, named `mug_v01/use`."""
     known = read_backbone_record(record)
     backbone = load_backbone(recorded_weights(known), known.input_px)
     shifts, chosen = encodings(settings["tasks"]), settings["features"]

@@ -1,4 +1,4 @@
-"""Draw the population's contact maps of all objects and tasks, and one sheet of them all."""
+"""Draw the population's contact maps of all objects and tasks, and a sheet of all of them."""
 
 from collections.abc import Mapping
 from pathlib import Path
@@ -21,7 +21,7 @@ def plot_contact_maps(
     renders: CameraSettings,
     settings: ContactPictureSettings,
 ) -> None:
-    """Draw each map of (object, task) to its target, and all of them small to `whole`."""
+    """Draw each map of (object, task) to its target, and all of them to the sheet `whole`."""
     tiles = []
     plainly = plain(renders, settings.size_px)
     with Camera(plainly) as camera:

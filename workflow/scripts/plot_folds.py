@@ -1,4 +1,4 @@
-"""Draw every fold and seed beside the mean and the paper."""
+"""Draw every fold and seed with the mean and the paper's figure."""
 
 from collections.abc import Sequence
 

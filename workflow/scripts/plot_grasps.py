@@ -23,7 +23,7 @@ def plot_grasps(
     renders: CameraSettings,
     settings: GallerySettings,
 ) -> None:
-    """Draw one grasp of each (object, task) of `names`, whose tables come in the same order."""
+    """Draw one grasp for each (object, task) in `names`; tables are in the same order."""
     tiles = []
     plainly = plain(renders, settings.size_px)
     with Camera(plainly) as camera:

@@ -19,7 +19,7 @@ def plot_label_tree(
 
     Args:
         dataset: of `dataset.DATASET_SCHEMA`.
-        archives: pictures of all grasps, by object.
+        archives: images of all grasps, by object.
     """
     table = read_table(dataset, DATASET_SCHEMA)
     counts = table[table.reason == VALID].GraspType.value_counts().to_dict()

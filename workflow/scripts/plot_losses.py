@@ -1,4 +1,4 @@
-"""Draw the losses of all models over the epochs."""
+"""Draw the training and test losses of all models."""
 
 from collections.abc import Mapping
 

@@ -1,4 +1,4 @@
-"""Draw examples of rejected grasps, a row a reason."""
+"""Draw examples of rejected grasps, one row per reason."""
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -25,7 +25,7 @@ def plot_rejected_grasps(
     renders: CameraSettings,
     settings: GallerySettings,
 ) -> None:
-    """Draw some of the attempts in `tables` that were rejected for each reason."""
+    """Draw some rejected attempts of `tables` for each reason."""
     attempts = pd.concat([read_table(path, ATTEMPT_SCHEMA) for path in tables], ignore_index=True)
     plainly = plain(renders, settings.size_px)
     groups = [] if not attempts.valid.all() else [Group("no attempt was rejected", [])]

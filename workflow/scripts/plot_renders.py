@@ -15,7 +15,7 @@ from grasptypes.settings.renders import RenderSheet
 def plot_renders(
     archives: Mapping[str, str], target: str, settings: RenderSheet, compression: int
 ) -> None:
-    """Write a sheet of the first pictures of each object's archive."""
+    """Write a sheet of the first images in each object's archive."""
     tiles = [
         Tile(np.hstack(list(read_pictures(path)[: settings.views])), name)
         for name, path in archives.items()

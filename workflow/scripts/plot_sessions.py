@@ -1,4 +1,4 @@
-"""Lay out the pictures of all grasps of each object: a group a task, a picture a session."""
+"""Lay out the images of all grasps of each object: one group per task, one image per session."""
 
 from collections.abc import Mapping, Sequence
 
@@ -24,7 +24,7 @@ def plot_sessions(
 
     Args:
         dataset: of `dataset.DATASET_SCHEMA`.
-        archives: pictures by object.
+        archives: images by object.
         targets: files to write, by object.
     """
     table = read_table(dataset, DATASET_SCHEMA)

@@ -1,4 +1,4 @@
-"""Find the backbone's weights and record which they are; the only job that may download them."""
+"""Find and record the backbone's weights; the only job that may download them."""
 
 from pathlib import Path
 
@@ -10,10 +10,10 @@ from grasptypes.predictors.weights import WEIGHTS_VARIABLE, find_weights
 
 
 def prepare_backbone(record: str | Path, chosen: str, timeout_s: float, input_px: int) -> str:
-    """Write the record of the weights, after loading them once; returns a line about them.
+    """Load the weights once and write their record; returns a line for the log.
 
     Args:
-        chosen: `default`, or the start of the checksum of the only weights that will do.
+        chosen: `default`, or a prefix of the required checksum.
     """
     weights = find_weights(timeout_s)
     if chosen != "default" and not weights.sha256.startswith(chosen):

@@ -1,4 +1,4 @@
-"""Build one object of the catalogue, or a user's own mesh, and write its files."""
+"""Prepare a catalogue object or a user's own mesh: write its files."""
 
 from pathlib import Path
 

@@ -1,4 +1,4 @@
-"""Build a variant of an object of the catalogue and write its files."""
+"""Prepare a variant of a catalogue object: write its files."""
 
 from pathlib import Path
 

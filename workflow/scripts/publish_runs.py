@@ -1,4 +1,4 @@
-"""Show the trained models in MLflow, and note which runs it shows."""
+"""Publish the trained models to MLflow, and record the published runs."""
 
 from pathlib import Path
 

@@ -1,4 +1,4 @@
-"""Take pictures of an object from random viewpoints; one job an object."""
+"""Render an object from random viewpoints; one job per object."""
 
 from collections.abc import Mapping
 from pathlib import Path
@@ -35,7 +35,7 @@ def render_object(
     """Write the images of an object, and the camera pose of each.
 
     Args:
-        draws: the object's name and the seed, which decide the views, and their number.
+        draws: object name and seed, which determine the views, and their number.
     """
     name, seed, count = draws
     with Camera(settings) as camera:

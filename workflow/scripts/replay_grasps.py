@@ -17,11 +17,11 @@ from grasptypes.tables import write_table
 def replay_grasps(
     published: str, scans: Sequence[Path], settings: ReplaySettings, target: Path
 ) -> str:
-    """Write the replay table; returns a line to log.
+    """Write the replay table; returns a line for the log.
 
     Args:
         published: the authors' GraspTypesWithTasks.csv; empty if the user has none.
-        scans: `<object>.stl` each; none if the user has none.
+        scans: files `<object>.stl`; empty if the user has none.
     """
     if not (published and scans):
         raise InputError(

@@ -1,4 +1,4 @@
-"""Split the pictures of all objects into folds."""
+"""Split the images of all objects into folds."""
 
 from collections.abc import Iterable
 from pathlib import Path
@@ -11,7 +11,7 @@ from grasptypes.tables import write_table
 
 
 def split_folds(poses: Iterable[str | Path], target: str | Path, folds: int, seed: int) -> None:
-    """Write the fold of every picture; `poses` are tables named after their objects."""
+    """Write the fold of every image; `poses` are tables named after their objects."""
     views = {Path(path).stem: len(pd.read_csv(path)) for path in poses}
     write_table(split(views, folds, seed), target, FOLD_SCHEMA)
 

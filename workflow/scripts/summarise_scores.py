@@ -1,4 +1,4 @@
-"""Write the results in short, for DVC to show and to compare between versions."""
+"""Write summaries of the results for DVC to show and compare."""
 
 from pathlib import Path
 
@@ -15,12 +15,12 @@ from grasptypes.tables import read_table
 def summarise_scores(
     known: list[str], unseen: str | None, models: dict[tuple[str, str], str]
 ) -> None:
-    """Write one file a label source and model.
+    """Write one file per label source and model.
 
     Args:
-        known: tables on known objects, one a label source.
-        unseen: the table on objects that were left out; None if there was but one object.
-        models: file to write, by label source and model.
+        known: tables for known objects, one per label source.
+        unseen: the table for left-out objects; None if there was only one object.
+        models: output files by label source and model.
     """
     table = pd.concat([pd.read_csv(path) for path in known], ignore_index=True)
     names = sorted({model for _, model in models})

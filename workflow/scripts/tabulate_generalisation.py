@@ -1,4 +1,4 @@
-"""Tabulate and draw how well unseen objects are known, against the number of shapes trained on."""
+"""Tabulate and draw results on unseen objects against the number of training shapes."""
 
 from collections.abc import Mapping, Sequence
 

@@ -1,4 +1,4 @@
-"""Tabulate how well each model does on each object, known and unseen, and draw it."""
+"""Tabulate and draw each model's results on each object, known and unseen."""
 
 from collections.abc import Mapping
 

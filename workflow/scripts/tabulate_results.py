@@ -1,4 +1,4 @@
-"""Tabulate metrics beside the paper and the ceilings: as CSV, as Markdown and as a figure."""
+"""Tabulate metrics with the paper and the ceilings: as CSV, Markdown and a figure."""
 
 from collections.abc import Mapping, Sequence
 
@@ -18,7 +18,7 @@ from grasptypes.tables import read_table, write_table
 def tabulate_results(
     metrics: Sequence[str], samples: Mapping[str, str], outputs: Mapping[str, str], unseen: bool
 ) -> None:
-    """Write one table of all label sources in `samples` (source to its table of samples)."""
+    """Write one table for all label sources in `samples` (source to table of samples)."""
     rows = pd.concat([read_table(path, METRIC_SCHEMA) for path in metrics], ignore_index=True)
     tables = [
         tabulate(rows[rows["labels"] == labels], read_samples(path), labels, unseen)

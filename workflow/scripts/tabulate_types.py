@@ -1,4 +1,4 @@
-"""Tabulate how well each model names each grasp type, and draw it."""
+"""Tabulate and draw each model's results for each grasp type."""
 
 from collections.abc import Mapping
 

@@ -1,4 +1,4 @@
-"""Train and test one model on one label source: all folds and seeds, then once on everything."""
+"""Train and test one model on one label source: all folds and seeds, then all data."""
 
 from collections.abc import Mapping
 
@@ -25,7 +25,7 @@ def train_predictor(
     """Train the problem's model and write its tables, tensors and card.
 
     Args:
-        precision: number format that frozen features were computed in.
+        precision: number format of the frozen features.
     """
     settings, name = problem.settings, (problem.labels, problem.model)
     key = ("predictor", problem.model, seed)
