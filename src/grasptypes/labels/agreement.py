@@ -1,4 +1,4 @@
-"""How far the rule's labels agree with the people who labelled the published grasps."""
+"""Agreement of the rule's labels with the human labels of the published grasps."""
 
 from __future__ import annotations
 
@@ -54,7 +54,7 @@ THRESHOLD_SCHEMA = pa.DataFrameSchema(
 
 
 class PublishedMeasures(NamedTuple):
-    """Published grasps of n poses: what people said and what is measured."""
+    """Published grasps of n poses: human labels and measures."""
 
     objects: NDArray[np.str_]
     """(n,) names."""
@@ -72,11 +72,12 @@ class PublishedMeasures(NamedTuple):
 def measure_published(
     published: pd.DataFrame, fields: Mapping[str, DistanceField], settings: ContactSettings
 ) -> PublishedMeasures:
-    """Measure the published grasps that people gave a type and that have a configuration.
+    """Measure the published grasps with a human label and a configuration.
 
     Args:
         published: the table of `published.read_published`.
-        fields: distances to the objects, in the frame of the published poses; others are left out.
+        fields: distances to the objects, in the frame of the published poses; other objects are
+            skipped.
     """
     known = published.hand_configuration.notna() & (published.grasp_type != INVALID)
     chosen = published[known & published.object.isin(list(fields))]
@@ -99,15 +100,15 @@ def _measure(numbers: Array, field: DistanceField, settings: ContactSettings) ->
 def agreement(
     published: PublishedMeasures, predicted: NDArray[np.int64], fitted_on: ArrayLike
 ) -> pd.DataFrame:
-    """A row an object and one for all.
+    """One row per object and one for all objects.
 
     Args:
         predicted: (n,) indices into `TYPES`.
-        fitted_on: (n,) in words, what the thresholds behind a prediction were fitted on; the same
-            for all poses of an object.
+        fitted_on: (n,) description of what the thresholds behind a prediction were fitted on; the
+            same for all poses of an object.
 
     Returns:
-        A table of `AGREEMENT_SCHEMA`. Kappa is 1 where people and rule know one type only.
+        A table of `AGREEMENT_SCHEMA`. Kappa is 1 if only one type occurs in both labels.
     """
     fitted_on = np.asarray(fitted_on, dtype=str)
     rows = [
@@ -138,32 +139,33 @@ def _row(
 
 
 def describe_fit(objects: Iterable[str], fitted_on: Iterable[str]) -> list[str]:
-    """For each object whether thresholds fitted on `fitted_on` had seen it, in words."""
+    """For each object, a description of whether thresholds fitted on `fitted_on` had seen it."""
     seen = set(fitted_on)
     own, others = f"{len(seen)} objects, this one too", f"{len(seen)} other objects"
     return [own if name in seen else others for name in objects]
 
 
 def confusion(published: PublishedMeasures, predicted: NDArray[np.int64]) -> NDArray[np.int64]:
-    """Counts (6, 6): rows are the people's types, columns the rule's."""
+    """Counts (6, 6): rows are human labels, columns the rule's."""
     counts = np.zeros((len(TYPES), len(TYPES)), dtype=np.int64)
     np.add.at(counts, (published.labels, predicted), 1)
     return counts
 
 
 def fit_thresholds(published: PublishedMeasures, softness: Softness) -> Thresholds:
-    """Thresholds with the highest expected accuracy if each branch is taken by a logistic chance.
+    """Thresholds with the highest expected accuracy if branches are taken with logistic
+    probability.
 
-    The chance depends on the logarithm of measure over threshold, divided by `softness`: a smooth
-    aim has a broad best value, where plain accuracy has many narrow ones. The search begins at the
-    medians of the measures, so that the result is a matter of these grasps alone.
+    The probability depends on the logarithm of measure over threshold, divided by `softness`: a
+    smooth objective has one broad maximum, while plain accuracy has many narrow ones. The search
+    starts at the medians of the measures, so that the result depends only on these grasps.
     """
     measured = np.log(np.maximum(np.stack(published.measures), 1e-6))
     widths = np.array([getattr(softness, name) for name in THRESHOLDS])[:, None]
     rows = np.arange(len(published.labels))
 
     def loss(log_thresholds: Array) -> float:
-        """Less the mean chance that thresholds (4,) of soft edges give to people's types."""
+        """Negative mean probability of the human labels with soft thresholds (4,)."""
         above = expit((measured - log_thresholds[:, None]) / widths)
         chance = type_chances(dict(zip(Measures._fields, above, strict=True)))
         return -float(chance[published.labels, rows].mean())
@@ -178,8 +180,8 @@ def cross_validate(published: PublishedMeasures, softness: Softness) -> pd.DataF
     """Label each object with thresholds fitted on all others.
 
     Returns:
-        A table of `THRESHOLD_SCHEMA`: an object's row holds the thresholds it was labelled with,
-        the last row those fitted on all objects (its accuracy is that of the rows above together).
+        A table of `THRESHOLD_SCHEMA`: an object's row has the thresholds it was labelled with,
+        the last row those fitted on all objects (its accuracy is that of all rows above together).
     """
     predicted = np.empty(len(published.labels), dtype=np.int64)
     names = np.unique(published.objects)

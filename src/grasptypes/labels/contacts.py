@@ -1,12 +1,12 @@
 """Where and in which direction a posed hand pushes against an object, from the signed distance.
 
-The same code serves the published poses (exact distance to a scan) and our own grasps (distance
-grid): anything with a `distance_and_gradient` will do.
+The same code is used for the published poses (exact distance to a scan) and for our own grasps
+(distance grid): it needs any object with `distance_and_gradient`.
 
-Neither tells forces. A link that lies near the object is taken to push with a weight that falls
-from 1 at touch to 0 at the reach, since published and synthesised hands end a few millimetres
-short of the surface or within it. Its direction lies between the surface's inward normal and the
-direction in which its finger closes: joint torque acts along the second, friction lets it.
+Forces are unknown in both cases. A link near the object is assumed to push with a weight that falls
+from 1 at contact to 0 at the reach, because published and synthesized hands end a few millimetres
+outside or inside the surface. Its direction is between the inward surface normal and the direction
+in which its finger closes: joint torque acts along the latter, and friction allows it.
 """
 
 from __future__ import annotations
@@ -28,12 +28,12 @@ FINGER_LINKS = tuple(
     i for i, name in enumerate(kinematics.LINK_NAMES) if name.startswith(("proximal", "distal"))
 )
 DISTAL_LINKS = tuple(i for i, name in enumerate(kinematics.LINK_NAMES) if name.startswith("distal"))
-# Closer than this the step to the nearest point is too short to tell a direction.
+# Closer than this, the step to the nearest point is too short to define a direction.
 TOUCH_M = 1e-3
 
 
 class DistanceField(Protocol):
-    """Signed distance to an object, negative inside, as `distance_grid.DistanceGrid` has it."""
+    """Signed distance to an object, negative inside, like `distance_grid.DistanceGrid`."""
 
     def distance_and_gradient(self, points_m: ArrayLike) -> tuple[Array, Array]:
         """Distances (...) in metres of points (..., 3), and directions (..., 3) out of it."""
@@ -55,7 +55,7 @@ class MeshDistance:
     def distance_and_gradient(self, points_m: ArrayLike) -> tuple[Array, Array]:
         """Distances (...) in metres and unit directions (..., 3) out of the mesh.
 
-        Inside is where the winding number exceeds a half.
+        Points with a winding number above one half are inside.
         """
         points = np.asarray(points_m, dtype=np.float64)
         flat = np.ascontiguousarray(points.reshape(-1, 3))
@@ -80,9 +80,9 @@ class Contacts(NamedTuple):
     gap_m: Array
     """(n, 9) signed distance between link and object, negative if they overlap."""
     position_m: Array
-    """(n, 9, 3) middle of the object's points next to the link."""
+    """(n, 9, 3) centre of the object's points next to the link."""
     normal: Array
-    """(n, 9, 3) unit vectors out of the object there, their mean direction."""
+    """(n, 9, 3) mean outward unit normals there."""
     push: Array
     """(n, 9, 3) unit vectors in which the links push the object."""
     weight: Array
@@ -119,9 +119,9 @@ def find_contacts(
 def closing_directions(T_hand_link: Array, position_m: Array) -> Array:
     """Unit vectors (n, 9, 3) in which points (n, 9, 3) on the links move as the fingers close.
 
-    Zero for the palm and the knuckles. A fingertip turns about its finger's base like the link
-    before it, because the motor drives both; of a finger whose base has been stopped, that is how
-    it came, not how it would go on.
+    Zero for the palm and the knuckles. A fingertip turns about the base of its finger like the link
+    before it, because the motor drives both; for a finger whose base has been stopped, this is how
+    it got there, not how it would continue.
     """
     directions = np.zeros_like(position_m)
     for link in FINGER_LINKS:
@@ -138,9 +138,9 @@ def unit(vectors: Array) -> Array:
 
 
 def _patches(distance: Array, link_index: NDArray[np.int64], depth_m: float) -> tuple[Array, Array]:
-    """Each link's gap (n, 9) and how its contact is shared among the hand's points (n, 9, p).
+    """Each link's gap (n, 9) and the weights of the hand's points in its contact (n, 9, p).
 
-    One nearest point alone would jump between a link's edges with the sampling of its surface.
+    A single nearest point would jump between the edges of a link, depending on the sampling.
     """
     links = len(kinematics.LINK_NAMES)
     gap = np.empty((len(distance), links))

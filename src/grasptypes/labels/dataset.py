@@ -1,4 +1,4 @@
-"""The dataset: every grasp with its label and why it has it, and the samples counted from it."""
+"""The dataset: every grasp with its label and explanation, and the samples counted from it."""
 
 from __future__ import annotations
 
@@ -70,8 +70,8 @@ def label_grasps(
         field: distance to the object.
 
     Returns:
-        `grasps` with the columns grasp_type (Invalid unless valid), shape (the type whatever
-        physics said), branch, margin, virtual_fingers and the measures.
+        `grasps` with the columns grasp_type (Invalid unless valid), shape (the type regardless of
+        physics), branch, margin, virtual_fingers and the measures.
     """
     joint_angles = np.stack(grasps.joint_angles_rad.tolist()).astype(np.float64)
     hand = configuration.unpack(np.stack(grasps.hand_configuration.tolist()))
@@ -89,8 +89,8 @@ def label_grasps(
 def dataset_table(labelled: Sequence[pd.DataFrame]) -> pd.DataFrame:
     """All labelled grasps in the authors' columns and ours: a table of `DATASET_SCHEMA`.
 
-    Sorted by object, task and session. `PoseIndex` is the grasp's place among those of its session
-    that were tried, and `Image` the screenshot's place below data/.
+    Sorted by object, task and session. `PoseIndex` is the position of the grasp among those tried
+    in its session, and `Image` the path of the screenshot below data/.
     """
     table = pd.concat(labelled, ignore_index=True)
     table = table.sort_values(["object", "task", "session"], ignore_index=True)
@@ -101,7 +101,7 @@ def dataset_table(labelled: Sequence[pd.DataFrame]) -> pd.DataFrame:
 
 
 def dataset_columns(table: pd.DataFrame) -> pd.DataFrame:
-    """Labelled grasps in the authors' columns and ours, in their order.
+    """Labelled grasps in the authors' columns and ours, in the given order.
 
     Args:
         table: of `label_grasps`, with the columns pose_index and image.
@@ -121,7 +121,7 @@ def dataset_columns(table: pd.DataFrame) -> pd.DataFrame:
 
 
 def image_name(object_name: str, session: int, task: str) -> str:
-    """Where a grasp's screenshot lies, in the authors' manner."""
+    """Path of a grasp's screenshot, named like the authors'."""
     return f"screenshots/{object_name}_{session}_{task}.png"
 
 

@@ -1,4 +1,4 @@
-"""One grasp with all that belongs to it."""
+"""A grasp as one object."""
 
 from __future__ import annotations
 
@@ -25,13 +25,13 @@ class Grasp:
     """A hand at an object.
 
     Attributes:
-        object: what is grasped.
-        task: what for.
+        object: the object.
+        task: the task.
         T_object_hand: the palm's frame of `hand.kinematics` in the object's, metres.
         joint_angles_rad: (8,) in the order of `kinematics.JOINT_NAMES`.
         grasp_type: one of `GRASP_TYPES`; `Invalid` if the physics test rejects the grasp.
         reason: `valid`, or why the physics test rejects it.
-        energy: of the search; low is good.
+        energy: energy of the search; lower is better.
     """
 
     object: ObjectGeometry
@@ -44,7 +44,7 @@ class Grasp:
 
 
 def grasps_of(table: pd.DataFrame, geometry: ObjectGeometry) -> list[Grasp]:
-    """The grasps of one object in a table of `dataset.label_grasps`, in its order."""
+    """The grasps of one object in a table of `dataset.label_grasps`, in order."""
     return [
         Grasp(
             object=geometry,
@@ -62,13 +62,13 @@ def grasps_of(table: pd.DataFrame, geometry: ObjectGeometry) -> list[Grasp]:
 
 
 def label(grasp: Grasp, settings: GraspTypeSettings | None = None) -> Label:
-    """The grasp type by the rule, whatever the physics test says, with its explanation.
+    """The grasp type by the rule, regardless of the physics test, with its explanation.
 
     Args:
-        settings: the rule's; by default those of params.yaml in the current folder.
+        settings: settings of the rule; by default those in params.yaml in the current folder.
 
     Raises:
-        InputError: no settings are given, and there is no params.yaml.
+        InputError: there are neither settings nor a params.yaml.
     """
     rule = settings or read_params("params.yaml").grasp_types
     angles = grasp.joint_angles_rad[None]

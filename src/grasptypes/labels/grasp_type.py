@@ -1,15 +1,15 @@
 """The grasp type of a measured grasp: the decision tree of the paper's Figure 2.
 
-Four thresholds decide, each on one length or share that can be measured on any grasp:
+Four thresholds decide, each on a length or share that can be measured on any grasp:
 
-- power or precision: does the object lie at the palm, or do the fingers alone carry it?
-- small wrap: a hand closed around a diameter this small presses the object to the palm with all
+- power or precision: is the object at the palm, or do the fingers alone carry it?
+- small wrap: a hand closed around such a small diameter presses the object to the palm with all
   fingers, whatever the spread: the fingers are one virtual finger, the palm the other;
-- virtual fingers: fingers that push within one plane are two that oppose; as soon as a share of
-  the push goes across that plane, a third virtual finger acts from there: a sphere;
+- virtual fingers: fingers that push within a plane are two opposing virtual fingers; a push across
+  that plane comes from a third one: a sphere;
 - large or medium wrap: the distance between the contacts of the opposing fingertips.
 
-See docs/grasp_types.md for the types' names elsewhere.
+See docs/grasp_types.md for the names of the types in other taxonomies.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ Array = NDArray[np.float64]
 LARGE_WRAP, MEDIUM_WRAP, SMALL_WRAP = "Large Wrap", "Medium Wrap", "Small Wrap"
 POWER_SPHERE, PRECISION_SPHERE, PRECISION = "Power Sphere", "Precision Sphere", "Precision"
 INVALID = "Invalid"
-# Spelled and ordered as the published table; its GraspTypeIndex counts from 1.
+# Spelled and ordered as in the published table, where GraspTypeIndex starts at 1.
 GRASP_TYPES = (
     LARGE_WRAP,
     MEDIUM_WRAP,
@@ -78,7 +78,7 @@ TREE = Branch(
 
 
 def virtual_fingers(grasp_type: str) -> int:
-    """How many virtual fingers hold with a grasp type: three with spheres, else two."""
+    """Number of virtual fingers of a grasp type: three for spheres, otherwise two."""
     return 3 if grasp_type in (POWER_SPHERE, PRECISION_SPHERE) else 2
 
 
@@ -90,7 +90,7 @@ def leaves(branch: Branch | str = TREE) -> list[str]:
 
 
 class Measures(NamedTuple):
-    """What is measured on n grasps; every field is (n,)."""
+    """Measures of n grasps; every field is (n,)."""
 
     palm_gap_m: Array
     enclosed_diameter_m: Array
@@ -106,7 +106,7 @@ class Label(NamedTuple):
     branch: str
     """The decisions in words, with the measured values and the thresholds."""
     margin: float
-    """Distance to the nearest threshold passed, as a share of that threshold."""
+    """Distance to the nearest threshold on the path, as a share of that threshold."""
 
 
 def measure(contacts: Contacts, joint_angles_rad: ArrayLike) -> Measures:
@@ -127,9 +127,9 @@ def measure(contacts: Contacts, joint_angles_rad: ArrayLike) -> Measures:
 def enclosed_diameters(joint_angles_rad: ArrayLike) -> Array:
     """Diameters (n, 3), metres, of the circle that each finger encloses with the palm.
 
-    The circle touches the palm's plane and the middle lines of both links, less the links' half
-    thickness; 0 where nothing is left. With the exterior angles a and b at the finger's two joints,
-    the tangents r tan(a/2) and r tan(b/2) fill the proximal link's length.
+    The circle touches the palm plane and the centre lines of both links, minus half the thickness
+    of the links; 0 if nothing is left. With the exterior angles a and b at the finger's two joints,
+    the tangents r tan(a/2) and r tan(b/2) add up to the length of the proximal link.
 
     Args:
         joint_angles_rad: (n, 8) in the order of `kinematics.JOINT_NAMES`.
@@ -142,7 +142,7 @@ def enclosed_diameters(joint_angles_rad: ArrayLike) -> Array:
 
 
 def sideways_share(contacts: Contacts) -> Array:
-    """Share (n,) of the fingers' push that goes along the palm's x axis, 0 to 1; 0 without contact.
+    """Share (n,) of the fingers' push along the palm's x axis, 0 to 1; 0 without contact.
 
     At spread 0 the fingers oppose each other in planes of constant x, so this is the push across
     the plane of opposition: mean square of the push's x component, weighted by contact.
@@ -155,22 +155,22 @@ def sideways_share(contacts: Contacts) -> Array:
 
 
 def fingertip_span(contacts: Contacts) -> Array:
-    """Distance (n,), metres, from finger 3's contact to the further one of fingers 1 and 2."""
+    """Distance (n,), metres, from finger 3's contact to the farther one of fingers 1 and 2."""
     first, second, third = (contacts.position_m[:, link] for link in DISTAL_LINKS)
     spans = [np.linalg.norm(third - other, axis=1) for other in (first, second)]
     return np.maximum(*spans)
 
 
 def type_chances(above: Mapping[str, Array]) -> Array:
-    """Chances (6, n) of the first six `GRASP_TYPES` for n grasps.
+    """Probabilities (6, n) of the first six `GRASP_TYPES` for n grasps.
 
     Args:
-        above: by measure the chance (n,) that it is above its threshold; 0 and 1 if it is known.
+        above: by measure, the probability (n,) that it is above its threshold; 0 or 1 if known.
     """
     chances: dict[str, Array] = {}
 
     def follow(branch: Branch | str, chance: Array | float) -> None:
-        """Share a chance among what lies below a branch."""
+        """Distribute a probability over the leaves below a branch."""
         if isinstance(branch, str):
             chances[branch] = np.asarray(chance)
             return
@@ -182,7 +182,7 @@ def type_chances(above: Mapping[str, Array]) -> Array:
 
 
 def classify(measures: Measures, thresholds: Thresholds) -> NDArray[np.int64]:
-    """Indices (n,) into `GRASP_TYPES`, 0 to 5: the tree, for all grasps at once."""
+    """Apply the tree: indices (n,) into `GRASP_TYPES`, 0 to 5."""
     limits = measure_limits(thresholds)
     above = {
         name: (values > limits[name]).astype(np.float64)
@@ -200,7 +200,7 @@ def measure_limits(thresholds: Thresholds, branch: Branch | str = TREE) -> dict[
 
 
 def explain(measures: Measures, thresholds: Thresholds) -> list[Label]:
-    """The labels of n grasps, each with its way through the tree."""
+    """The labels of n grasps, each with its path through the tree."""
     columns = {name: values.tolist() for name, values in measures._asdict().items()}
     rows = zip(*columns.values(), strict=True)
     return [_explain(dict(zip(columns, row, strict=True)), thresholds) for row in rows]
@@ -223,5 +223,5 @@ def _explain(measured: Mapping[str, float], thresholds: Thresholds) -> Label:
 
 
 def amount(measure: str, value: float) -> str:
-    """A value of one of `Measures` in words."""
+    """A value of one of `Measures` as text, with its unit."""
     return f"{value:.3f}" if measure.endswith("share") else f"{value * 1e3:.1f} mm"

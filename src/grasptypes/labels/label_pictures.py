@@ -18,7 +18,7 @@ DOTS_PER_INCH = 150
 
 
 def draw_confusion(counts: NDArray[np.int64], types: tuple[str, ...], title: str) -> Figure:
-    """A confusion matrix (k, k), rows the people's types; colour is the share of a row."""
+    """A confusion matrix (k, k), rows are human labels; colour is the share within a row."""
     figure = Figure(figsize=(6.4, 5.6), layout="constrained")
     axes = figure.add_subplot()
     rows = counts.sum(axis=1, keepdims=True)
@@ -37,7 +37,7 @@ def draw_confusion(counts: NDArray[np.int64], types: tuple[str, ...], title: str
 
 
 def draw_distribution(table: pd.DataFrame, types: tuple[str, ...], title: str) -> Figure:
-    """Our counts beside the published ones: per (object, task) and in all.
+    """Our counts next to the published ones: per (object, task) and in total.
 
     Args:
         table: the rows of `distribution.DISTRIBUTION_SCHEMA` without the mean.
@@ -86,7 +86,7 @@ def _draw_totals(axes: Axes, table: pd.DataFrame, types: tuple[str, ...]) -> Non
 
 
 def save_figure(figure: Figure, path: str | Path) -> None:
-    """Write a PNG that holds neither a date nor the library's version."""
+    """Write a PNG without a date or library version."""
     buffer = io.BytesIO()
     figure.savefig(buffer, format="png", dpi=DOTS_PER_INCH, metadata={"Software": None})
     write_bytes(path, buffer.getvalue())

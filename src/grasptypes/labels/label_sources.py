@@ -1,4 +1,4 @@
-"""Which objects and tasks a label source knows: the published labels know the authors' alone."""
+"""Objects and tasks of a label source: the published labels cover only the authors'."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ SOURCES = ("simulated", "published")
 
 @dataclass(frozen=True)
 class Known:
-    """Objects and tasks of the parameters that have labels, in the order of the parameters."""
+    """Objects and tasks that have labels, in the order of the parameters."""
 
     objects: list[str]
     tasks: list[str]
@@ -27,19 +27,19 @@ def label_sources(
     tasks: Collection[str],
     path: str | Path = "params.yaml",
 ) -> dict[str, Known]:
-    """What is learned from each label source.
+    """The labelled objects and tasks of each label source.
 
-    Physics labels every object for every task. Results on published labels cover what the authors
-    had: own objects, variants and further tasks are not in them.
+    Simulated labels cover every object and task. Published labels cover those of the authors: own
+    objects, variants and further tasks are not included.
 
     Args:
-        used: label sources that tables are made for.
-        counts: CSV of the published counts, a row an object and task.
+        used: label sources to make tables for.
+        counts: CSV of the published counts, one row per object and task.
         objects, tasks: of the parameters.
         path: of the parameters.
 
     Raises:
-        InputError: the published labels are used and there is nothing to learn from them.
+        InputError: published labels are used, but none of the objects and tasks have them.
     """
     with open(counts, encoding="utf-8", newline="") as file:
         rows = {(row["object"], row["task"]) for row in csv.DictReader(file)}

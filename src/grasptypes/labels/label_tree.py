@@ -1,4 +1,4 @@
-"""The decision tree of the grasp types as a figure, with the grasps that end in each leaf."""
+"""Figure of the decision tree of grasp types, with the number of grasps in each leaf."""
 
 from __future__ import annotations
 
@@ -16,13 +16,13 @@ from grasptypes.settings.grasp_types import Thresholds
 
 Picture = NDArray[np.uint8]
 
-# Layout in places between leaves and steps between questions: half the height of a question's box,
-# the top of the leaves, and half the width of the words at a branch.
+# Layout in units of leaf spacing and question spacing: half the height of a question's box, top of
+# the leaves, and half the width of the text at a branch.
 HALF, LEAF_TOP, WORDS = 0.19, -3.85, 0.28
 
 
 def typical_grasps(dataset: pd.DataFrame) -> dict[str, pd.Series]:
-    """For each grasp type that occurs the valid grasp farthest from every threshold it passed.
+    """For each grasp type that occurs, the valid grasp farthest from all thresholds on its path.
 
     Args:
         dataset: of `dataset.DATASET_SCHEMA`.
@@ -38,12 +38,12 @@ def draw_label_tree(
     thresholds: Thresholds,
     pictures: Mapping[str, Picture],
 ) -> Figure:
-    """The tree from top to bottom, with a picture of a grasp below each leaf.
+    """The tree from top to bottom, with an image of a grasp below each leaf.
 
     Args:
         counts: valid grasps by type.
-        rejected: number of grasps that physics rejected.
-        pictures: by type, for the types that occur.
+        rejected: number of grasps rejected by physics.
+        pictures: images by type, for the types that occur.
     """
     figure = Figure(figsize=(10.5, 6.6), layout="constrained")
     axes = figure.add_subplot()
@@ -72,7 +72,7 @@ def _draw(
     counts: Mapping[str, int],
     thresholds: Thresholds,
 ) -> float:
-    """Draw a branch and all below it; returns where it stands from left to right."""
+    """Draw a branch and everything below it; returns its horizontal position."""
     place, bottom = float(np.mean([places[name] for name in leaves(branch)])), -depth - HALF
     limit = amount(branch.measure, getattr(thresholds, branch.threshold))
     for child, words in ((branch.below, f"≤ {limit}"), (branch.above, f"> {limit}")):
@@ -81,7 +81,7 @@ def _draw(
         else:
             end = _draw(axes, child, depth + 1, places, counts, thresholds), -depth - 1 + HALF
         axes.plot([place, end[0]], [bottom, end[1]], color="#9a9a9a", zorder=0)
-        # Far enough down that the words of the two branches stand beside each other.
+        # Low enough that the texts of the two branches are side by side.
         down = max(0.3, WORDS / max(abs(end[0] - place), WORDS))
         at = place + down * (end[0] - place), bottom + down * (end[1] - bottom)
         axes.text(*at, words, ha="center", va="center", fontsize="small", bbox=_BARE)

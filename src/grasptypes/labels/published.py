@@ -1,4 +1,4 @@
-"""The authors' published dataset: one row an object, task and session, with its grasp's label."""
+"""The authors' published dataset: one labelled grasp per object, task and session."""
 
 import csv
 import io
@@ -52,7 +52,7 @@ def _text(text: str) -> str:
 
 def _one_of(allowed: tuple[str, ...]) -> Callable[[str], str]:
     def check(text: str) -> str:
-        """The cell as it is, if it is allowed."""
+        """The unchanged cell, if allowed."""
         if text not in allowed:
             raise ValueError(f"{text!r} is not one of {', '.join(allowed)}")
         return text
@@ -70,7 +70,7 @@ def parse_configuration(text: str) -> NDArray[np.float64] | None:
     """The 17 numbers (17,) of a HandConfiguration cell, metres and radians; None if it is blank.
 
     Raises:
-        ValueError: not 17 finite numbers, the first not a whole one, or a pose that is not rigid.
+        ValueError: not 17 finite numbers, the first not an integer, or a pose that is not rigid.
     """
     if not text.strip():
         return None
@@ -91,8 +91,8 @@ def parse_configuration(text: str) -> NDArray[np.float64] | None:
     return numbers
 
 
-# Published column, ours, and how a cell is read. Type 7 is Invalid; names are right where a row's
-# index differs from its name (one Invalid row carries 4).
+# Published column, our column, and how a cell is read. Type 7 is Invalid; if index and name of a
+# row disagree, the name is correct (one Invalid row has index 4).
 COLUMNS: tuple[tuple[str, str, Callable[[str], object]], ...] = (
     ("Index", "index", _whole),
     ("Object", "object", _text),
@@ -109,17 +109,17 @@ COLUMNS: tuple[tuple[str, str, Callable[[str], object]], ...] = (
 
 
 def read_published(path: str | Path) -> pd.DataFrame:
-    """Read GraspTypesWithTasks.csv, every cell checked.
+    """Read GraspTypesWithTasks.csv and check every cell.
 
     Returns:
-        One row a grasp in the file's order, with the columns index, object, task, session,
+        One row per grasp in the order of the file, with the columns index, object, task, session,
         grasp_type, grasp_type_index, rank, energy, pose_index, hand_configuration and image.
-        A hand_configuration is an array (17,), see `hand.configuration`, or None where the file
-        leaves it blank. Its DOFs are spread, F1, F2, F3 of GraspIt!'s `Barrett`, and may exceed
+        A hand_configuration is an array (17,), see `hand.configuration`, or None if the cell
+        is blank. Its DOFs are spread, F1, F2, F3 of GraspIt!'s `Barrett`, and may exceed
         the real hand's limits.
 
     Raises:
-        InputError: naming the file, and the line and column that cannot be used.
+        InputError: names the file, and the first bad line and column.
     """
     path = Path(path)
     cells = _read_cells(path)

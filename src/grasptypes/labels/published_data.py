@@ -1,4 +1,4 @@
-"""The published poses with people's labels: where they come from, and their measures."""
+"""The published poses with human labels: their source and their measures."""
 
 from __future__ import annotations
 
@@ -21,10 +21,10 @@ SOURCES = {
 
 
 def lacking_data(environment: Mapping[str, str]) -> str:
-    """What is not there of the data that environment variables name, and how to get it.
+    """Missing data among those named by environment variables, and how to get them.
 
     Returns:
-        One line, empty if nothing is lacking.
+        One line; empty if nothing is missing.
     """
     places = {PUBLISHED: published_path(environment), REFERENCES: environment.get(REFERENCES)}
     absent = [name for name, place in places.items() if not Path(place or "missing").exists()]
@@ -36,12 +36,12 @@ def lacking_data(environment: Mapping[str, str]) -> str:
 def read_measures(
     environment: Mapping[str, str], own: str | Path, scale: float, settings: GraspTypeSettings
 ) -> PublishedMeasures:
-    """Measure all published poses that have a type, a configuration and an object.
+    """Measure all published poses that have a type, a configuration and an object mesh.
 
     Args:
         environment: names the published table, by path or URL, and the folder of reference meshes.
-        own: folder of the objects prepared here, for those without a reference mesh.
-        scale: of the reference meshes.
+        own: folder of prepared objects, for those without a reference mesh.
+        scale: scale of the reference meshes.
     """
     path = published_path(environment)
     published = read_published(path)

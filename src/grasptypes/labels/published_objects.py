@@ -24,11 +24,11 @@ def object_distances(
     """Distances to the objects, in the frame of the published poses.
 
     Args:
-        names: of the objects wanted; those with neither mesh are left out.
+        names: requested objects; those without any mesh are skipped.
         references: folder of `<object>.stl`.
-        own: folder of `<object>/surface.npz`, the objects that were prepared here at scale.
-        scale: of the reference meshes.
-        own_frames: how our own models of some objects lie in that frame.
+        own: folder of `<object>/surface.npz`, prepared objects at scale.
+        scale: scale of the reference meshes.
+        own_frames: placement of our own models of some objects in that frame.
 
     Raises:
         InputError: a mesh cannot be read.
@@ -48,11 +48,11 @@ def object_distances(
 
 
 def own_mesh(path: str | Path, frame: ModelFrame | None) -> trimesh.Trimesh:
-    """Our own model, metres, standing on the ground with its middle above the origin.
+    """Our own model, metres, placed on the ground with its centre above the origin.
 
     Args:
-        path: of a surface file.
-        frame: `rotation` before and `shift_m` after standing it there, if it needs any.
+        path: surface file.
+        frame: optional `rotation` before and `shift_m` after placing it there.
     """
     surface = read_surface(path)
     vertices = surface.vertices

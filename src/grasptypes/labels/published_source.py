@@ -1,4 +1,4 @@
-"""Where the authors' table comes from: a file on this machine, or a URL with its checksum."""
+"""Source of the authors' table: a local file, or a URL with a checksum."""
 
 from __future__ import annotations
 
@@ -11,19 +11,19 @@ from grasptypes.downloads import DownloadError, download
 from grasptypes.errors import InputError
 
 PUBLISHED = "GRASPTYPES_PUBLISHED_CSV"
-# Where the rule `fetch_published` keeps what a URL gave.
+# Target of the rule `fetch_published` for a table given by URL.
 FETCHED = "data/published/GraspTypesWithTasks.csv"
 
 
 class Address(NamedTuple):
-    """A URL and what must be found there."""
+    """A URL and the checksum of its content."""
 
     url: str
     sha256: str
 
 
 def published_address(environment: Mapping[str, str]) -> Address | None:
-    """The URL that the environment names, as ``<URL>#sha256=<64 hex digits>``; None for a path.
+    """The URL named by the environment as ``<URL>#sha256=<64 hex digits>``; None for a path.
 
     Raises:
         InputError: a URL without checksum.
@@ -40,7 +40,7 @@ def published_address(environment: Mapping[str, str]) -> Address | None:
 
 
 def published_path(environment: Mapping[str, str]) -> str:
-    """Path of the table, be it there or still to be fetched; empty if none is named.
+    """Path of the table, which may still have to be downloaded; empty if none is named.
 
     Raises:
         InputError: a URL without checksum.
@@ -49,10 +49,10 @@ def published_path(environment: Mapping[str, str]) -> str:
 
 
 def check_published(environment: Mapping[str, str]) -> None:
-    """Refuse a name that leads nowhere, before anything runs; no host is asked.
+    """Reject an unusable name before anything runs; without network access.
 
     Raises:
-        InputError: a URL without checksum, or a path to nothing.
+        InputError: a URL without checksum, or a missing file.
     """
     named = environment.get(PUBLISHED, "")
     if named and published_address(environment) is None and not Path(named).is_file():
@@ -60,10 +60,10 @@ def check_published(environment: Mapping[str, str]) -> None:
 
 
 def fetch_published(environment: Mapping[str, str], path: str | Path, timeout_s: float) -> Address:
-    """Fetch the table that the environment names by URL; returns where it came from.
+    """Download the table named by URL in the environment; returns its source.
 
     Raises:
-        InputError: no URL is named, it cannot be reached, or what lies there is another file.
+        InputError: there is no URL, it cannot be reached, or its content has another checksum.
     """
     address = published_address(environment)
     if address is None:

@@ -4,12 +4,11 @@ For each pose, with d(p) the exact signed distance (negative inside) of a point 
 surface to the object's surface, and e(p) the depth of a corner of the object in the hand:
 
 - gap = max(0, min d): 0 if hand and object touch or overlap anywhere;
-- penetration = max(0, max -d, max e): how deep one lies in the other. It can never exceed half
-  the thickness of the object or of the link, whichever is pierced.
+- penetration = max(0, max -d, max e). It never exceeds half the thickness of the penetrated object
+  or link.
 
-The published poses are in a frame whose origin lies below the middle of the object, where it
-stands on the ground. The scans are moved there first: their own origin is the centroid of their
-surface.
+The origin of the published poses' frame is below the centre of the object, where it stands on the
+ground. The scans, whose own origin is the centroid of their surface, are moved to that frame first.
 """
 
 from pathlib import Path
@@ -45,12 +44,12 @@ REPLAY_SCHEMA = pa.DataFrameSchema(
 
 
 class HandFit(NamedTuple):
-    """How hands lie on an object, one row a pose."""
+    """Distances between hands and an object, one row per pose."""
 
     link_distance_m: Array
     """(n, 9) smallest signed distance of each link to the object, negative inside."""
     depth_m: Array
-    """(n,) how deep the object's corners lie in the hand, 0 or more."""
+    """(n,) depth of the object's corners in the hand, 0 or more."""
 
     @property
     def gap_m(self) -> Array:
@@ -60,18 +59,18 @@ class HandFit(NamedTuple):
 
     @property
     def penetration_m(self) -> Array:
-        """(n,) how deep hand and object lie in each other, 0 if they do not."""
+        """(n,) penetration depth of hand and object, 0 without penetration."""
         return np.maximum(-self.link_distance_m.min(axis=1), self.depth_m).clip(min=0.0)
 
 
 def read_reference_mesh(path: str | Path, scale: float) -> trimesh.Trimesh:
-    """A scanned object, metres, enlarged and moved into the frame of the published poses.
+    """A scanned object, metres, scaled and moved to the frame of the published poses.
 
-    That frame's axes are the scan's, its x-y origin is the middle of the object's bounding box,
-    and its x-y plane is the one the object stands on.
+    The axes of that frame are those of the scan, its x-y origin is the centre of the object's
+    bounding box, and its x-y plane is the ground.
 
     Raises:
-        InputError: the file is no triangle mesh.
+        InputError: the file is not a triangle mesh.
     """
     with parsing(path, "cannot be read as a mesh"):
         mesh = trimesh.load_mesh(path)
@@ -85,9 +84,9 @@ def read_reference_mesh(path: str | Path, scale: float) -> trimesh.Trimesh:
 
 
 def fit_hands(configurations: Array, mesh: trimesh.Trimesh, spacing_m: float) -> HandFit:
-    """Put the hand at each of the configurations (n, 17) and measure how it lies on the object.
+    """Place the hand at configurations (n, 17) and measure its distance to the object.
 
-    Fingertips are taken as coupled to their finger bases: the published poses hold no more.
+    Fingertips are assumed to be coupled to their finger bases, since the poses contain no more.
     """
     hand = configuration.unpack(configurations)
     poses = kinematics.link_poses(kinematics.couple(hand.dofs_rad))
@@ -126,7 +125,7 @@ def replay_object(
 def replay(
     published: pd.DataFrame, meshes: dict[str, Path], settings: ReplaySettings
 ) -> pd.DataFrame:
-    """Replay all published poses that have a configuration, for the objects that have a mesh.
+    """Replay all published poses with a configuration, for the objects with a mesh.
 
     Args:
         published: the table of `published.read_published`.

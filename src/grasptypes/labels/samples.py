@@ -1,7 +1,7 @@
-"""The table of samples: for each object and task, which grasp types it is held with.
+"""The table of samples: the grasp types of each object and task.
 
-Written for the simulated and for the published labels alike, so that everything after it runs
-with either.
+It has the same form for simulated and published labels, so that everything after it works with
+both.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ import pandera.pandas as pa
 from grasptypes.errors import InputError
 from grasptypes.tables import read_table
 
-# Spelled and ordered as the published table.
+# Spelled and ordered as in the published table.
 TYPES = (
     "large_wrap",
     "medium_wrap",
@@ -54,13 +54,13 @@ SAMPLE_SCHEMA = pa.DataFrameSchema(
 def samples_from_counts(counts: pd.DataFrame, file: str | Path = "counts") -> pd.DataFrame:
     """The binary label and the probability vector of every count vector.
 
-    The label holds the types that occur at all (paper, section III-C). The probability vector is
-    the label divided by its number of types: with it the published labels have the task-blind
-    ceiling that the paper's row (a) nearly reaches (0.849), which count frequencies do not (0.885).
+    The label marks all types that occur (paper, section III-C). The probability vector is the label
+    divided by its number of types: this gives the published labels a task-blind ceiling of 0.849,
+    which the paper's row (a) nearly reaches; count frequencies would give 0.885.
 
     Args:
         counts: columns ``object``, ``task`` and the six of :data:`COUNTS`.
-        file: named in errors.
+        file: file name for errors.
 
     Returns:
         a table of :data:`SAMPLE_SCHEMA`, sorted by object and task.
@@ -89,7 +89,7 @@ def samples_from_counts(counts: pd.DataFrame, file: str | Path = "counts") -> pd
 
 
 def read_samples(path: str | Path) -> pd.DataFrame:
-    """A checked table of samples."""
+    """Read and check a table of samples."""
     return read_table(path, SAMPLE_SCHEMA)
 
 

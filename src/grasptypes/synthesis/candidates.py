@@ -1,7 +1,7 @@
-"""Hands around an object, guided by one session's contact: the first step of ContactGrasp.
+"""Grasp candidates guided by one session's contact: the first step of ContactGrasp.
 
-Half of them follow the person: the palm comes the person's way and the fingers close where the
-person's did. The others come along the normals at points the person touched, at any roll, since
+Half of them follow the person: the palm approaches like the person's and the fingers close where
+the person's did. The others approach along the normals at touched points, with any roll, because
 this hand is not a human one and may hold the same place better from another side.
 """
 
@@ -22,13 +22,13 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Demonstration:
-    """One session's contact and the way the hand was placed, in the object's frame.
+    """One session's contact and placement of the hand, in the object frame.
 
     Attributes:
         points_m, normals: (N, 3) points spread over the surface, and their outward normals.
         contact: (N,) 0 to 1.
         grip: a grip of the affinity table.
-        approach: (3,) unit vector, the way the palm came.
+        approach: (3,) unit vector along which the palm approached.
         closing: (3,) unit vector, from the thumb to the fingers.
         centre_m: (3,) between palm, fingers and thumb.
     """
@@ -43,7 +43,7 @@ class Demonstration:
 
 
 class HandStates(NamedTuple):
-    """Hands in the object's frame."""
+    """Hands in the object frame."""
 
     T_object_hand: Array
     """(n, 4, 4)."""
@@ -51,7 +51,7 @@ class HandStates(NamedTuple):
     """(n, 8) in the order of `kinematics.JOINT_NAMES`."""
 
     def take(self, index: NDArray[Any]) -> HandStates:
-        """Those of an index or mask."""
+        """The hands of an index or mask."""
         return HandStates(self.T_object_hand[index], self.joint_angles_rad[index])
 
 
@@ -62,7 +62,7 @@ def draw_candidates(
     touch_m: float,
     draw: np.random.Generator,
 ) -> HandStates:
-    """Hands that have come up to the object and closed their fingers until `touch_m` from it."""
+    """Hands that have approached the object and closed their fingers to within `touch_m`."""
     count = settings.number
     followers = draw.random(count) < settings.follow_share
     aim, approach, side = _aims(demonstration, followers, settings, draw)
@@ -83,7 +83,7 @@ def draw_candidates(
 
 
 def frames(approach: Array, side: Array) -> Array:
-    """Rotations (n, 3, 3) whose z is the approach (n, 3) and whose y is nearest to side (n, 3)."""
+    """Rotations (n, 3, 3) with z along the approach (n, 3) and y closest to side (n, 3)."""
     z = approach / np.linalg.norm(approach, axis=1, keepdims=True)
     y = side - np.einsum("ni,ni->n", side, z)[:, None] * z
     y /= np.linalg.norm(y, axis=1, keepdims=True)
@@ -96,7 +96,7 @@ def _aims(
     settings: CandidateSettings,
     draw: np.random.Generator,
 ) -> tuple[Array, Array, Array]:
-    """Points aimed at, unit approaches, and sides of fingers 1 and 2 (all (n, 3))."""
+    """Target points, unit approaches, and sides of fingers 1 and 2 (all (n, 3))."""
     count = len(followers)
     weight = demonstration.contact / demonstration.contact.sum()
     point = draw.choice(len(weight), count, p=weight)
@@ -108,7 +108,7 @@ def _aims(
     roll = draw.integers(settings.rolls, size=count) * (2 * np.pi / settings.rolls)
     near = draw.normal(0.0, settings.tilt_sd_rad, count) + np.pi * draw.integers(2, size=count)
     roll = np.where(followers, near, roll)
-    # Roll zero is the person's own closing direction, or for lack of one the least aligned axis.
+    # Roll zero is the person's closing direction or, without one, the least aligned axis.
     across = np.broadcast_to(demonstration.closing, (count, 3))
     parallel = np.abs(np.einsum("ni,ni->n", across, approach)) > 0.9
     least = np.eye(3)[np.abs(approach).argmin(axis=1)]

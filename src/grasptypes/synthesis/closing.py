@@ -1,7 +1,7 @@
-"""Bringing an open hand onto the object and closing its fingers until they touch, in batches.
+"""Move open hands onto an object and close their fingers until they touch, in batches.
 
-Both movements are advanced by conservative steps: no point of the hand can travel further than
-its signed distance to the object, so no step can jump over a surface, however thin.
+Both motions advance in conservative steps: no point of the hand moves farther than its signed
+distance to the object, so no step can jump over a surface, however thin.
 """
 
 from __future__ import annotations
@@ -24,16 +24,16 @@ _FINGERS = 3
 def slide_in(
     scene: GraspScene, T_object_hand: Array, spread_rad: Array, reach_m: Array, touch_m: float
 ) -> Array:
-    """Move open hands along their approach (+z) until they touch or have gone their way.
+    """Move open hands along their approach (+z) until they touch or have moved `reach_m`.
 
     Args:
-        T_object_hand: (n, 4, 4) hands in the object's frame, clear of the object.
+        T_object_hand: (n, 4, 4) hands in the object frame, clear of the object.
         spread_rad: (n,) spread of the fingers.
-        reach_m: (n,) how far each may go at most.
+        reach_m: (n,) maximum distance of each.
         touch_m: distance between surfaces at which a link stops.
 
     Returns:
-        (n,) how far each went, metres.
+        (n,) distance moved, metres.
     """
     angles = np.zeros((len(spread_rad), len(kinematics.JOINT_NAMES)))
     angles[:, :2] = spread_rad[:, None]
@@ -45,10 +45,10 @@ def slide_in(
 def close_fingers(
     scene: GraspScene, T_object_hand: Array, spread_rad: Array, touch_m: float
 ) -> Array:
-    """Close each finger until it touches, as the real hand does.
+    """Close each finger until it touches, like the real hand.
 
-    A finger base and its fingertip turn together, three to one. If the proximal link is stopped
-    first, the TorqueSwitch lets the fingertip go on alone until it touches or meets its limit.
+    Finger base and fingertip turn together, three to one. If the proximal link is stopped first,
+    the TorqueSwitch lets the fingertip go on alone until it touches or reaches its limit.
 
     Args:
         T_object_hand: (n, 4, 4) hands in the object's frame.
@@ -100,14 +100,14 @@ def _slide(
 
 @compiled()
 def _least_gap(model: HandModel, grid: Field, link: int, pose: Array) -> float:
-    """A lower bound of the distances of a link's points."""
+    """A lower bound on the distances of a link's points."""
     x, y, z = moved(pose, model.centres, link)
     return distance(grid, x, y, z) - model.radii[link]
 
 
 @compiled(inline=True)
 def moved(pose: Array, points: Array, row: int) -> tuple[float, float, float]:
-    """One of the points (n, 3), moved by a pose (3+, 4)."""
+    """One of the points (n, 3), transformed by a pose (3+, 4)."""
     x, y, z = points[row, 0], points[row, 1], points[row, 2]
     return (
         pose[0, 0] * x + pose[0, 1] * y + pose[0, 2] * z + pose[0, 3],
@@ -118,7 +118,7 @@ def moved(pose: Array, points: Array, row: int) -> tuple[float, float, float]:
 
 @compiled(inline=True)
 def _turned(pose: Array, angle: float, result: Array) -> None:
-    """Turn a pose (3+, 4) about its own z axis."""
+    """Rotate a pose (3+, 4) about its own z axis."""
     c, s = np.cos(angle), np.sin(angle)
     for row in range(3):
         result[row, 0] = c * pose[row, 0] + s * pose[row, 1]
@@ -149,7 +149,7 @@ def _close_finger(
     model: HandModel, grid: Field, finger: int, T_object_rest: Array, T_proximal_distal: Array,
     limits: Array, touch_m: float,
 ) -> tuple[float, float]:  # fmt: skip
-    """Final angles of one finger's two joints, from open."""
+    """Final angles of the two joints of a finger that starts open."""
     proximal, distal = FIRST_PROXIMAL + finger, FIRST_DISTAL + finger
     T_proximal, T_hinge, T_distal = np.empty((3, 4)), np.empty((3, 4)), np.empty((3, 4))
     ratio, hinge_m = kinematics.DISTAL_RATIO, kinematics.PROXIMAL_LENGTH_M
@@ -190,7 +190,7 @@ def _close_finger(
 
 @compiled()
 def _levers(model: HandModel, link: int) -> Array:
-    """Distance of each of a link's points from the axis it turns about, its own z."""
+    """Distance of each of a link's points from its joint axis, its own z."""
     points = model.points[model.starts[link] : model.starts[link + 1]]
     return np.sqrt(points[:, 0] ** 2 + points[:, 1] ** 2)
 
@@ -209,13 +209,13 @@ def _free_turn(
     model: HandModel, grid: Field, link: int, pose: Array, levers: Array, gaps: Array,
     step: float, touch_m: float,
 ) -> float:  # fmt: skip
-    """How far a link may turn before one of its points could touch.
+    """How far a link can turn before one of its points could touch.
 
     Args:
-        levers: (m,) how far each point moves at most, metres a radian.
-        gaps: (m,) lower bounds of the points' distances, brought up to date where it matters: a
-            point is not looked at again before the link could have moved that far.
-        step: the largest answer of interest, radians.
+        levers: (m,) maximum motion of each point, metres per radian.
+        gaps: (m,) lower bounds on the distances of the points, updated lazily: a point is not
+            checked again before the link could have moved that far.
+        step: the largest result of interest, radians.
 
     Returns:
         at most `step`; 0 if the link touches.

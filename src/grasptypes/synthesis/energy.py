@@ -1,7 +1,7 @@
 """ContactGrasp's energy of a grasp (Brahmbhatt et al. 2019, section IV), for many grasps at once.
 
-Points of the object that the person touched attract the hand, points left alone repel it. Lengths
-are in metres; the weights are ContactGrasp's, so energies compare with the published ones in kind.
+Points that the person touched attract the hand, the other points repel it. Lengths are in metres;
+the weights are ContactGrasp's, so energies are of the same kind as the published ones.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ from grasptypes.synthesis.scene import GraspScene
 Array = NDArray[np.float64]
 
 TERMS = ("attraction", "repulsion", "thumb", "penetration", "self_collision")
-# Gaps beyond this are only bounded from below: nobody asks how far a link is that does not touch.
+# Gaps beyond this are only bounded from below, since the distance of a remote link does not matter.
 FAR_M = 0.005
 _THUMB = len(kinematics.LINK_NAMES) - 1
 
@@ -33,21 +33,21 @@ class Targets(NamedTuple):
     """Points of the object that attract or repel the hand."""
 
     points: Array
-    """(m, 3) metres, the object's frame; the attracting ones first."""
+    """(m, 3) metres, object frame; attracting points first."""
     normals: Array
     """(m, 3) outward unit vectors."""
     attracting: int
-    """How many attract."""
+    """Number of attracting points."""
 
 
 class Closeness(NamedTuple):
-    """How the links of n hands lie to the object and to each other."""
+    """Distances of the links of n hands to the object and to each other."""
 
     gaps_m: Array
-    """(n, 9) smallest signed distance of each link's points to the object, or a lower bound of it
-    where a link is far."""
+    """(n, 9) smallest signed distance of each link's points to the object, or a lower bound for a
+    remote link."""
     self_depth_m: Array
-    """(n,) how deep links of different fingers, or a finger and the palm, overlap."""
+    """(n,) penetration depth between links of different fingers, or a finger and the palm."""
 
     @property
     def penetration_m(self) -> Array:
@@ -60,7 +60,7 @@ def draw_targets(
 ) -> Targets:
     """Choose a session's attracting and repelling points among the demonstration's.
 
-    If nobody touched anything, the points with the strongest contact attract.
+    If no point counts as touched, the points with the strongest contact attract.
     """
     contact = demonstration.contact
     touched = contact >= min(settings.contact_threshold, contact.max())
@@ -86,11 +86,11 @@ def energies(
     targets: Targets,
     settings: EnergySettings,
 ) -> Array:
-    """The terms of each grasp's energy; their sum is the energy, low is good.
+    """The terms of each grasp's energy; their sum is the energy, lower is better.
 
     Args:
-        link_poses: (n, 9, 4, 4) links in the object's frame.
-        close: of the same hands.
+        link_poses: (n, 9, 4, 4) links in the object frame.
+        close: closeness of the same hands.
 
     Returns:
         (n, 5) in the order of `TERMS`.
@@ -121,7 +121,7 @@ def _contact_terms(
             for candidate in range(len(model.radii)):
                 x, y, z = moved(T_link_object[n, candidate], points, m)
                 cx, cy, cz = model.centres[candidate]
-                # The thumb's own term asks for its distance where another link is nearer, too.
+                # The thumb's term needs its distance even if another link is closer.
                 of_thumb = candidate == _THUMB and m < attracting
                 bound = model.radii[candidate] + (max(nearest, thumb) if of_thumb else nearest)
                 if (x - cx) ** 2 + (y - cy) ** 2 + (z - cz) ** 2 > bound * bound:
@@ -145,7 +145,7 @@ def _faces(
     model: HandModel, pose: Array, link: int, points: Array, normals: Array, row: int,
     gap: float, offset_m: float,
 ) -> bool:  # fmt: skip
-    """Whether the link's point nearest to an object's point lies close to that point's normal."""
+    """Whether the link's point nearest to an object point is close to that point's normal."""
     grids, index = model.grids, model.grid_of_link[link]
     x, y, z = moved(pose, points, row)
     h = 0.5 * grids.spacing
@@ -185,9 +185,9 @@ def _closeness(model: HandModel, grid: Field, poses: Array) -> tuple[Array, Arra
 
 @compiled()
 def _may_collide(link: int, other: int) -> bool:
-    """Whether a finger's link can meet another one: not of its own finger, nor its own base.
+    """Whether a finger link can collide with another link, not of its own finger or base.
 
-    Of two fingers' links, the first looks for the second.
+    For links of two fingers, only the first is checked against the second.
     """
     same_finger = (link - FIRST_PROXIMAL) % 3 == (other - FIRST_PROXIMAL) % 3
     if other >= FIRST_PROXIMAL:

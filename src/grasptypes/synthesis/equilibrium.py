@@ -1,10 +1,10 @@
-"""A quick look at whether the touching points could hold the object still, before any physics.
+"""A quick test, before any physics, of whether the contacts could hold the object still.
 
-Contacts whose normal forces add up to one newton, each within its friction cone, leave at best
-some force and torque unbalanced. That rest is the least norm in the convex hull of the wrenches
-along the cones' edges, each of unit normal force; it is zero exactly if the origin lies in the
-hull (force closure, up to its boundary). It is approached from above with Gilbert's algorithm, so
-what is found after its steps is an upper bound. (E. G. Gilbert, An iterative procedure for
+Contacts whose normal forces sum to one newton, each within its friction cone, leave some wrench
+unbalanced. The smallest possible residual is the minimum norm in the convex hull of the wrenches
+along the cones' edges with unit normal force; it is zero if and only if the origin is in the hull
+(force closure, up to the boundary). Gilbert's algorithm approaches it from above, so the result
+after a finite number of steps is an upper bound. (E. G. Gilbert, An iterative procedure for
 computing the minimum of a quadratic form on a convex set, SIAM J. Control 4(1), 1966.)
 """
 
@@ -24,9 +24,9 @@ Array = NDArray[np.float64]
 
 
 def wrench_residual(scene: GraspScene, link_poses: Array, settings: EquilibriumSettings) -> Array:
-    """Force that stays unbalanced when each of n hands presses with normal forces of 1 N in all.
+    """Wrench that stays unbalanced when each of n hands presses with normal forces of 1 N in total.
 
-    Torques are about the object's centre of mass, and count as forces at its radius.
+    Torques are about the object's centre of mass and are converted to forces at its radius.
 
     Args:
         link_poses: (n, 9, 4, 4) links in the object's frame.
@@ -71,7 +71,7 @@ def _cone(
     wrenches: Array, first: int, arm: tuple[float, float, float],
     normal: tuple[float, float, float], radius: float, friction: float, edges: int,
 ) -> None:  # fmt: skip
-    """Wrenches along a friction cone's edges, 1 N along the normal each; torques per `radius`."""
+    """Wrenches along the edges of a friction cone, 1 N along the normal; torques per `radius`."""
     nx, ny, nz = normal
     if abs(nx) < 0.6:
         ux, uy, uz = 0.0, nz, -ny
@@ -93,7 +93,7 @@ def _cone(
 
 @compiled()
 def _least_norm(points: Array, iterations: int) -> float:
-    """Least distance from the origin found in the convex hull of points (n, d): an upper bound."""
+    """Upper bound on the distance of the origin from the convex hull of points (n, d)."""
     current = points[0].copy()
     for _ in range(iterations):
         lowest, best = np.inf, 0

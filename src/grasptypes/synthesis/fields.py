@@ -1,4 +1,4 @@
-"""Signed distances at single points, compiled: what all the batched searches are made of."""
+"""Compiled signed distances at single points, the basis of all batched searches."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ Array = NDArray[np.float64]
 
 
 class Field(NamedTuple):
-    """A signed distance grid as plain arrays, which compiled functions can take."""
+    """A signed distance grid as plain arrays, for compiled functions."""
 
     values: NDArray[np.float32]
     """(nx, ny, nz) metres, negative inside."""
@@ -26,7 +26,7 @@ class Field(NamedTuple):
 
 
 class Fields(NamedTuple):
-    """Several grids of different sizes in one array, so that an index chooses among them."""
+    """Several grids of different sizes in one array, selected by an index."""
 
     values: NDArray[np.float32]
     """(n,) all nodes, one grid after the other."""
@@ -41,13 +41,13 @@ class Fields(NamedTuple):
 
 
 def field(grid: DistanceGrid) -> Field:
-    """The grid's arrays in the types the compiled functions expect."""
+    """The grid's arrays in the types that the compiled functions expect."""
     values = np.ascontiguousarray(grid.values, dtype=np.float32)
     return Field(values, np.asarray(grid.origin_m, dtype=np.float64), float(grid.spacing_m))
 
 
 def fields(grids: Sequence[DistanceGrid]) -> Fields:
-    """Pack grids of one spacing."""
+    """Pack grids of equal spacing."""
     packed = [field(grid) for grid in grids]
     sizes = [grid.values.size for grid in packed]
     return Fields(
@@ -61,7 +61,7 @@ def fields(grids: Sequence[DistanceGrid]) -> Fields:
 
 @compiled(inline=True)
 def _cell(coordinate: float, nodes: int) -> tuple[int, float, float]:
-    """Lower node, weight of the upper one, and how far (in nodes) the point lies outside."""
+    """Lower node, weight of the upper one, and distance (in nodes) outside the grid."""
     inside = min(max(coordinate, 0.0), nodes - 1.0)
     lower = min(int(inside), nodes - 2)
     return lower, inside - lower, coordinate - inside
@@ -69,9 +69,9 @@ def _cell(coordinate: float, nodes: int) -> tuple[int, float, float]:
 
 @compiled(inline=True)
 def _beyond(value: float, way_squared: float) -> float:
-    """Lower bound of the distance at a point that lies a way outside of a box.
+    """Lower bound on the distance at a point outside a box.
 
-    The way to the box's nearest point and the way on to the surface within the convex box never
+    The path to the nearest point of the convex box and the path from there to the surface never
     form an acute angle, hence Pythagoras.
     """
     if way_squared == 0.0:
@@ -83,8 +83,8 @@ def _beyond(value: float, way_squared: float) -> float:
 def distance(grid: Field, x: float, y: float, z: float) -> float:
     """Signed distance at a point in metres, trilinear.
 
-    Outside of the grid's box it is a lower bound, so that a step of that length never jumps over
-    the surface.
+    Outside the grid it is a lower bound, so that a step of this length never jumps over the
+    surface.
     """
     values, origin, h = grid
     i, u, a = _cell((x - origin[0]) / h, values.shape[0])
@@ -122,7 +122,7 @@ def gradient(grid: Field, x: float, y: float, z: float) -> tuple[float, float, f
 
 @compiled()
 def distance_in(grids: Fields, index: int, x: float, y: float, z: float) -> float:
-    """As `distance`, in one of several grids."""
+    """Like `distance`, in one of several grids."""
     values, starts, shapes, origins, h = grids
     ny, nz = shapes[index, 1], shapes[index, 2]
     i, u, a = _cell((x - origins[index, 0]) / h, shapes[index, 0])

@@ -1,6 +1,6 @@
-"""The tables of grasps and of attempts: one row a session, and one a grasp that was tried.
+"""The tables of grasps (one row per session) and of attempts (one row per grasp tried).
 
-Physics saw those attempts whose `moved_m` is above 0; geometry alone rejected the others.
+Attempts with `moved_m` above 0 were tested in physics; the others were rejected by geometry alone.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ import pandera.pandas as pa
 from grasptypes.hand import configuration, kinematics
 from grasptypes.synthesis.search import ALL_TERMS
 
-# Why a grasp is invalid, in the order in which they are looked for; empty if it is valid.
+# Why a grasp is invalid, in the order of the checks; empty if it is valid.
 REASONS = ("joint_limit", "self_collision", "penetrates", "no_contact", "dropped")
 ENERGY_TERMS = tuple(f"energy_{term}" for term in ALL_TERMS)
 

@@ -1,4 +1,4 @@
-"""The hand as the batched searches see it: points on its links, and distances to its links."""
+"""The hand for batched searches: points on its links, and distance grids of its links."""
 
 from __future__ import annotations
 
@@ -18,21 +18,21 @@ Array = NDArray[np.float64]
 
 PALM, FIRST_PROXIMAL, FIRST_DISTAL = 0, 3, 6
 """Indices into `kinematics.LINK_NAMES`."""
-# Which distance grid each link uses: the three fingers are alike.
+# Distance grid of each link: the three fingers share theirs.
 GRID_OF_LINK = np.array([0, 1, 2, 3, 3, 3, 4, 4, 4])
 
 
 class HandModel(NamedTuple):
-    """Points of all links, one link after the other, and one distance grid a kind of link."""
+    """Points of all links, one link after another, and one distance grid per kind of link."""
 
     points: Array
     """(n, 3) on the surface of each link, in its own frame, metres."""
     starts: NDArray[np.int64]
-    """(10,) where each link's points begin, and the end of the last."""
+    """(10,) start of each link's points, and the end of the last."""
     centres: Array
     """(9, 3) centre of each link's bounding sphere, in its own frame, metres."""
     radii: Array
-    """(9,) radius of it, metres."""
+    """(9,) radius of that sphere, metres."""
     grid_of_link: NDArray[np.int64]
     """(9,) index into `grids`."""
     grids: Fields
@@ -47,9 +47,9 @@ def hand_model(
 
     Args:
         finger_spacing_m: distance between neighbouring points on the fingers.
-        base_spacing_m: the same on the palm and the knuckles, which are larger and touch less.
+        base_spacing_m: the same on palm and knuckles, which are larger and touch less often.
         grid_spacing_m: distance between the nodes of the links' distance grids.
-        range_m: how far the grids reach beyond the links.
+        range_m: margin of the grids around the links.
     """
     base, fingers = surface_points(base_spacing_m), surface_points(finger_spacing_m)
     of_base, of_fingers = base.link_index < FIRST_PROXIMAL, fingers.link_index >= FIRST_PROXIMAL

@@ -1,4 +1,4 @@
-"""What testing a grasp takes and gives, and the hand's motors; no physics engine in here."""
+"""Input and output of the physics test, and the hand's motors; without a physics engine."""
 
 from __future__ import annotations
 
@@ -12,14 +12,14 @@ from grasptypes.settings.physics import PhysicsSettings
 
 Array = NDArray[np.float64]
 
-# A joint this far behind where it has been is being driven back: 0.1 mm at the fingertip.
+# A joint this far behind its previous angle is being driven back: 0.1 mm at the fingertip.
 DRIVEN_BACK_RAD = 0.001
-# The joints of the three fingers within `kinematics.JOINT_NAMES`.
+# The joints of the three fingers in `kinematics.JOINT_NAMES`.
 BASES, TIPS = slice(2, 5), slice(5, 8)
 
 
 class Contact(NamedTuple):
-    """A point where a link presses on the object, in the object's frame."""
+    """A point where a link presses on the object, in the object frame."""
 
     link: int
     """Index into `kinematics.LINK_NAMES`."""
@@ -32,17 +32,17 @@ class Contact(NamedTuple):
 
 
 class HoldResult(NamedTuple):
-    """What became of a grasp.
+    """Result of a physics test.
 
-    With `shake`, all fields, also those "at the end of the last test", are of the test in the worst
-    direction of gravity: the first in which the object dropped, or the one in which it moved most.
+    With `shake`, all fields are of the test in the worst direction of gravity: the first in which
+    the object dropped, or the one in which it moved most.
     """
 
     dropped: bool
     moved_m: float
-    """How far the object's centre of mass moved in the hand while gravity acted."""
+    """Motion of the object's centre of mass in the hand under gravity."""
     turned_rad: float
-    """How far it turned meanwhile."""
+    """Rotation of the object in the hand under gravity."""
     T_object_hand: Array
     """(4, 4) at the end of the last test."""
     joint_angles_rad: Array
@@ -52,11 +52,11 @@ class HoldResult(NamedTuple):
 
 
 class Motors:
-    """The hand's motors: they close with a limited force, and never let go.
+    """The hand's motors: they close with a limited force and never let go.
 
-    Worm gears keep a joint from being driven back: it withstands the hand's passive force. One
-    motor turns base and tip of a finger, coupled three to one, until the base is stopped by what it
-    touches: then the TorqueSwitch releases it and the tip goes on alone.
+    Worm gears keep joints from being driven back, up to the hand's passive force. One motor turns
+    base and tip of a finger, coupled three to one, until the base is stopped by a contact; then the
+    TorqueSwitch releases it and the tip goes on alone.
     """
 
     def __init__(self, angles_rad: Array, settings: PhysicsSettings) -> None:
@@ -68,12 +68,12 @@ class Motors:
         self._levers_m = _levers_m(angles_rad, self.coupled)
 
     def release(self, finger: int) -> None:
-        """From now on the base of a finger (0 to 2) keeps its place and the tip closes alone."""
+        """From now on, the base of a finger (0 to 2) stays in place and the tip closes alone."""
         self.coupled[finger] = False
         self._levers_m = _levers_m(self._reached_rad, self.coupled)
 
     def drive(self, angles_rad: Array) -> tuple[Array, Array]:
-        """What the motors do at joint angles (8,): speeds (8,) rad/s and torque limits (8,) N m.
+        """Motor commands at joint angles (8,): speeds (8,) rad/s and torque limits (8,) N m.
 
         The tip of a coupled finger has no torque of its own.
         """
@@ -98,7 +98,7 @@ class Motors:
 
 
 def _levers_m(angles: Array, coupled: NDArray[np.bool_]) -> Array:
-    """(8,) way of the fingertip that a joint moves, metres per radian of the joint."""
+    """(8,) motion of the fingertip per joint motion, metres per radian."""
     poses = kinematics.link_poses(angles)[1:]
     tips = kinematics.fingertips(angles)[[0, 1, 0, 1, 2, 0, 1, 2]]
     ways = np.cross(poses[:, :3, 2], tips - poses[:, :3, 3])

@@ -1,8 +1,8 @@
-"""Does a grasp hold? The only module that knows PyBullet; quaternions are xyzw in here alone.
+"""Does a grasp hold? The only module that uses PyBullet, and its xyzw quaternions.
 
-A test has a world of its own: everything is loaded anew after a reset, in the same order, so its
-result cannot depend on the tests before it. The hand's base is fixed, its motors push with a
-limited force, the object is free. It is squeezed without gravity first, then gravity acts.
+Every test has its own world: everything is reloaded after a reset, in the same order, so the result
+cannot depend on earlier tests. The hand's base is fixed, its motors push with a limited force, the
+object is free. It is squeezed without gravity first, then gravity acts.
 """
 
 from __future__ import annotations
@@ -25,10 +25,10 @@ from grasptypes.synthesis.holding import BASES, TIPS, Contact, HoldResult, Motor
 Array = NDArray[np.float64]
 
 DIRECTIONS = np.concatenate([-np.eye(3)[::-1], np.eye(3)[::-1]])
-"""(6, 3) ways of gravity in the object's frame; the first, -z, is that of an object set down."""
+"""(6, 3) directions of gravity in the object frame; the first, -z, is that of an object at rest."""
 
 LOOKS = 20
-"""How often a test looks, at most, whether the object has been dropped already."""
+"""Maximum number of checks, during a test, of whether the object has dropped."""
 
 
 class Physics:
@@ -44,13 +44,13 @@ class Physics:
         self._joints: list[int] = []
         self._gears: dict[int, int] = {}
         self.steps = 0
-        """Time steps made so far, for benchmarks."""
+        """Number of time steps so far, for benchmarks."""
 
     def hold(self, T_object_hand: Array, joint_angles_rad: Array) -> HoldResult:
-        """Squeeze and hold the object, in the worst of the directions asked for.
+        """Squeeze and hold the object; returns the result for the worst direction of gravity.
 
         Args:
-            T_object_hand: (4, 4) the hand in the object's frame.
+            T_object_hand: (4, 4) hand in the object frame.
             joint_angles_rad: (8,) angles at which the fingers touch.
         """
         directions = DIRECTIONS if self._settings.shake else DIRECTIONS[:1]
@@ -96,7 +96,7 @@ class Physics:
         )
 
     def _load(self, T_object_hand: Array, angles: Array) -> tuple[int, int]:
-        """A new world with the hand at its origin and the object in it: their numbers."""
+        """Create a world with the hand at its origin and the object; returns their body IDs."""
         client, settings = self._client, self._settings
         pybullet.resetSimulation(physicsClientId=client)
         pybullet.setPhysicsEngineParameter(
@@ -123,16 +123,16 @@ class Physics:
         return hand, thing
 
     def _number_joints(self, hand: int) -> None:
-        """Find Bullet's number of each joint, which is also that of the link behind it."""
+        """Find Bullet's index of each joint, which is also that of its child link."""
         count, client = pybullet.getNumJoints(hand, physicsClientId=self._client), self._client
         names = [pybullet.getJointInfo(hand, n, physicsClientId=client)[1] for n in range(count)]
         self._joints = [names.index(name.encode()) for name in kinematics.JOINT_NAMES]
 
     def _let_own_links_pass(self, hand: int) -> None:
-        """Ignore collisions of a finger's links with one link between them, as the search does.
+        """Ignore collisions between links that are one link apart, like the search.
 
-        They are never in each other's way, but a folded finger lies closer to the palm than
-        Bullet's skins are thick, which would bend the spread beyond its limit.
+        They cannot touch, but a folded finger is closer to the palm than Bullet's collision margin,
+        which would push the spread beyond its limit.
         """
         knuckles, bases, tips = self._joints[:2], self._joints[BASES], self._joints[TIPS]
         pairs = [(-1, base) for base in bases[:2]] + list(zip(knuckles, tips[:2], strict=True))
@@ -162,7 +162,7 @@ class Physics:
             thing,
             -1,
             localInertiaDiagonal=moments.tolist(),
-            lateralFriction=1.0,  # Bullet multiplies the frictions of the two bodies
+            lateralFriction=1.0,  # Bullet multiplies the friction of both bodies
             collisionMargin=0.0,
             physicsClientId=client,
         )
@@ -173,10 +173,10 @@ class Physics:
         return thing
 
     def _run(self, hand: int, thing: int, motors: Motors, intervals: int) -> None:
-        """Let time pass while the motors close the fingers as far as their force allows.
+        """Simulate while the motors close the fingers as far as their force allows.
 
         Args:
-            intervals: how often the motors are commanded, each time for `control_steps`.
+            intervals: number of motor commands, each held for `control_steps`.
         """
         settings, client = self._settings, self._client
         for _ in range(intervals):
@@ -196,7 +196,7 @@ class Physics:
             self.steps += settings.control_steps
 
     def _couple(self, hand: int, motors: Motors) -> None:
-        """Put gears between base and tip of the coupled fingers."""
+        """Add gear constraints between base and tip of the coupled fingers."""
         client, settings = self._client, self._settings
         self._gears = {}
         for finger in np.flatnonzero(motors.coupled).tolist():
@@ -227,7 +227,7 @@ class Physics:
                 motors.release(finger)
 
     def _pose(self, thing: int) -> Array:
-        """(4, 4) the object's frame in the hand's; Bullet itself reports its inertial frame."""
+        """(4, 4) object frame in the hand frame; Bullet itself reports the inertial frame."""
         client = self._client
         position, orientation = pybullet.getBasePositionAndOrientation(
             thing, physicsClientId=client
@@ -254,7 +254,7 @@ class Physics:
 def physics(
     urdf: str | Path, geometry: ObjectGeometry, settings: PhysicsSettings
 ) -> Iterator[Physics]:
-    """A physics server for one object, in this process and without a window."""
+    """A physics server for one object, in this process, without a window."""
     client = pybullet.connect(pybullet.DIRECT)
     try:
         yield Physics(client, Path(urdf), geometry, settings)
@@ -274,7 +274,7 @@ def _matrix(position: Sequence[float], orientation: Sequence[float]) -> Array:
 
 
 def _difference(before: Array, after: Array, centre_m: Array) -> tuple[float, float]:
-    """Way (m) of a body's centre of mass from one pose to another, and the body's turn (rad)."""
+    """Motion of a body's centre of mass (m) and its rotation (rad) between two poses."""
     turned = Rotation.from_matrix(before[:3, :3].T @ after[:3, :3]).magnitude()
     change = after - before
     return float(np.linalg.norm(change[:3, :3] @ centre_m + change[:3, 3])), float(turned)

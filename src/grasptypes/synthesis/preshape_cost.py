@@ -1,8 +1,8 @@
-"""What it costs a hand to leave the preshape of the person's grip.
+"""Cost of deviating from the preshape of the person's grip.
 
-A contact map says where, not how: closed fingers may cover the same surface from one side where
-the person's came from three. The measures are those that tell grasp types apart, see `grasp_type`,
-here on the search's coarse hand.
+A contact map says where to hold, not how: closed fingers may cover the same surface from one side
+where the person's came from three. The measures are those that distinguish grasp types, see
+`grasp_type`, computed on the search's coarse hand.
 """
 
 from __future__ import annotations
@@ -30,14 +30,14 @@ def preshape_cost(
     ranges: ShapeRanges,
     settings: ShapeSettings,
 ) -> Array:
-    """Sum over the measures of how far each is outside of its range, as a share of the bound.
+    """Sum over the measures of the deviation from their ranges, as a share of the bound.
 
     Args:
         link_poses: (n, 9, 4, 4) links in the object's frame.
         joint_angles_rad: (n, 8) of the same hands.
 
     Returns:
-        (n,) 0 to 3; no measure counts more than 1.
+        (n,) 0 to 3; each measure counts at most 1.
     """
     gap, share = _palm_and_push(
         scene.hand, scene.field, link_poses, settings.reach_m, settings.closing_weight
@@ -81,7 +81,7 @@ def _palm_and_push(
 def _nearest(
     model: HandModel, grid: Field, link: int, pose: Array
 ) -> tuple[float, tuple[float, float, float]]:
-    """Gap of a link and its point next to the object."""
+    """Gap of a link, and its point closest to the object."""
     least, nearest = np.inf, (0.0, 0.0, 0.0)
     for index in range(model.starts[link], model.starts[link + 1]):
         point = moved(pose, model.points, index)
@@ -93,7 +93,7 @@ def _nearest(
 
 @compiled()
 def _push(grid: Field, point: tuple[float, float, float], base: Array, weight: float) -> Array:
-    """Unit push at a point of a finger whose first joint turns about z of `base`."""
+    """Unit push at a point of a finger whose first joint turns about the z axis of `base`."""
     gx, gy, gz = gradient(grid, point[0], point[1], point[2])
     norm = max(np.sqrt(gx * gx + gy * gy + gz * gz), 1e-12)
     ax, ay, az = base[0, 2], base[1, 2], base[2, 2]

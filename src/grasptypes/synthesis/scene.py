@@ -1,4 +1,4 @@
-"""A hand and an object, as the batched searches see them."""
+"""A hand and an object for the batched searches."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ Array = NDArray[np.float64]
 
 
 class GraspScene(NamedTuple):
-    """What compiled functions take; all in the object's frame."""
+    """Input of the compiled functions; everything in the object frame."""
 
     hand: HandModel
     field: Field

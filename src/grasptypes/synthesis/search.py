@@ -1,4 +1,4 @@
-"""The search of one session: candidates, their energy, refinement of the best, a short list."""
+"""The search of one session: candidates, energy, refinement of the best, a short list."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ ALL_TERMS = (*TERMS, "imbalance", "grip_shape")
 
 
 class RankedGrasps(NamedTuple):
-    """Grasps in the order of their energy, best first."""
+    """Grasps in order of energy, best first."""
 
     hands: HandStates
     terms: Array
@@ -48,12 +48,12 @@ class RankedGrasps(NamedTuple):
         return self.terms.sum(axis=1)
 
     def take(self, index: NDArray[np.int64]) -> RankedGrasps:
-        """Those of an index."""
+        """The grasps of an index."""
         return RankedGrasps(self.hands.take(index), self.terms[index])
 
 
 class CostFunction(NamedTuple):
-    """What hands in a scene cost that are to hold the object as a demonstration shows."""
+    """Cost of hands that should hold the object of a scene as a demonstration shows."""
 
     scene: GraspScene
     targets: Targets
@@ -61,9 +61,9 @@ class CostFunction(NamedTuple):
     settings: SynthesisSettings
 
     def evaluate(self, hands: HandStates, every: bool = False) -> RankedGrasps:
-        """Energies of hands (n), infinite for those that must not be ranked, unless `every` counts.
+        """Energies of hands (n); infinite for those that must not be ranked, unless `every` is set.
 
-        A grasp must not be ranked if it overlaps, or touches with too few fingers.
+        A grasp must not be ranked if it penetrates or touches with too few fingers.
         """
         scene, settings = self.scene, self.settings
         poses = hands.T_object_hand[:, None] @ kinematics.link_poses(hands.joint_angles_rad)
@@ -93,10 +93,10 @@ def search_session(
     settings: SynthesisSettings,
     draw: np.random.Generator,
 ) -> RankedGrasps:
-    """The grasps of one session to be tried, at least one and at most `tries`.
+    """The grasps of one session to try, at least one and at most `tries`.
 
-    Grasps that must not be ranked are dropped. Only where that are all candidates, they are tried
-    as they are, so that the session's failure has its reason.
+    Grasps that must not be ranked are dropped, unless that applies to all candidates: then they are
+    tried anyway, so that the session's failure has a reason.
     """
     targets = draw_targets(demonstration, settings.energy, draw)
     ranges = settings.candidates.grips.named(demonstration.grip).shape
@@ -112,10 +112,10 @@ def search_session(
 
 
 def refine(cost: CostFunction, parents: RankedGrasps, draw: np.random.Generator) -> RankedGrasps:
-    """Vary pose and spread, close the fingers anew, and keep what has a lower energy.
+    """Vary pose and spread, close the fingers again, and keep grasps of lower energy.
 
-    All ten degrees of freedom move, yet every grasp that is looked at touches the object, which
-    steps along a gradient in the joints would not ensure.
+    All ten degrees of freedom vary, and yet every grasp touches the object, which gradient steps in
+    joint space would not ensure.
     """
     how, touch_m = cost.settings.refinement, cost.settings.closing.touch_m
     scale = 1.0
@@ -135,7 +135,7 @@ def refine(cost: CostFunction, parents: RankedGrasps, draw: np.random.Generator)
 def _varied(
     hands: HandStates, how: RefinementSettings, scale: float, draw: np.random.Generator
 ) -> HandStates:
-    """Random neighbours (n * children) of hands (n), those of one hand in a row."""
+    """Random neighbours (n * children) of hands (n); those of one hand are consecutive."""
     T = np.repeat(hands.T_object_hand, how.children, axis=0)
     angles = np.repeat(hands.joint_angles_rad, how.children, axis=0)
     shift = draw.normal(0.0, scale * how.position_sd_m, (len(T), 3))
@@ -154,7 +154,7 @@ def _joined(first: RankedGrasps, second: RankedGrasps) -> RankedGrasps:
 
 
 def _spaced(found: RankedGrasps, count: int, how: RankingSettings) -> NDArray[np.int64]:
-    """Indices of up to `count` grasps by energy, leaving out those too like a better one."""
+    """Indices of up to `count` grasps by energy, without those too similar to a better one."""
     order = np.argsort(found.energy, kind="stable")
     order = order[np.isfinite(found.energy[order])]
     T, spread = found.hands.T_object_hand, found.hands.joint_angles_rad[:, 0]

@@ -1,5 +1,6 @@
-"""Which grasp a session gets: its candidates go through physics by rank until one is valid and
-still has the shape of the person's grip. If none has, the valid one that left it least is taken.
+"""The grasp of a session: candidates are tested in physics by rank until one is valid and still has
+the shape of the person's grip. If there is none, the valid one with the smallest deviation is
+taken.
 """
 
 from __future__ import annotations
@@ -37,12 +38,12 @@ LOGGER = logging.getLogger("grasptypes")
 
 
 class GraspTrial(NamedTuple):
-    """What became of one grasp."""
+    """Result of trying one grasp."""
 
     reason: str
     """One of `grasps.REASONS`, or empty."""
     T_object_hand: Array
-    """(4, 4): as held at the end, or as planned if it was not held."""
+    """(4, 4): as held at the end, or as planned if not held."""
     joint_angles_rad: Array
     """(8,) likewise."""
     penetration_m: float
@@ -50,7 +51,7 @@ class GraspTrial(NamedTuple):
     turned_rad: float
     contacts: list[Contact]
     deviation: float = 0.0
-    """Of that hand from the shape of the person's grip, see `preshape_cost`."""
+    """Deviation of that hand from the shape of the person's grip, see `preshape_cost`."""
 
 
 class SynthesisTask(NamedTuple):
@@ -66,10 +67,10 @@ class SynthesisTask(NamedTuple):
 def synthesize(
     task: SynthesisTask, urdf: str | Path, settings: SynthesisSettings, test: GraspTestSettings
 ) -> tuple[pd.DataFrame, pd.DataFrame]:
-    """One grasp a session.
+    """One grasp per session.
 
     Args:
-        urdf: the hand's.
+        urdf: URDF of the hand.
 
     Returns:
         Tables that meet `grasps.GRASP_SCHEMA` and `grasps.ATTEMPT_SCHEMA`.
@@ -85,7 +86,7 @@ def synthesize(
 def synthesize_sessions(
     task: SynthesisTask, scene: GraspScene, tester: GraspTester, settings: SynthesisSettings
 ) -> tuple[pd.DataFrame, pd.DataFrame]:
-    """As `synthesize`, in a scene with the coarse hand and with a tester that is ready."""
+    """Like `synthesize`, with a given scene (with the coarse hand) and tester."""
     grasps: list[Mapping[str, Any]] = []
     attempts: list[Mapping[str, Any]] = []
     for number, demonstration in enumerate(demonstrations(task.contact_map), start=1):
@@ -114,7 +115,7 @@ def synthesize_sessions(
 
 
 def demonstrations(contact_map: ContactMap) -> Iterator[Demonstration]:
-    """What the persons of a contact map showed, in the order of its sessions."""
+    """The demonstrations of a contact map, in the order of its sessions."""
     points = contact_map.points.astype(np.float64)
     normals = contact_map.normals.astype(np.float64)
     for session in range(len(contact_map.sessions)):
@@ -130,10 +131,10 @@ def demonstrations(contact_map: ContactMap) -> Iterator[Demonstration]:
 
 
 class GraspTester:
-    """Looks at grasps by geometry, and tests in physics those in which nothing is wrong.
+    """Checks grasps geometrically, and tests those without a flaw in physics.
 
     Args:
-        scene: with the fine hand.
+        scene: scene with the fine hand.
     """
 
     def __init__(self, scene: GraspScene, world: Physics, validity: ValiditySettings) -> None:
@@ -142,7 +143,7 @@ class GraspTester:
         self.validity = validity
 
     def try_grasp(self, T_object_hand: Array, joint_angles_rad: Array) -> GraspTrial:
-        """Look at a grasp as planned; if nothing is wrong, test it, and look at it as held."""
+        """Check a grasp as planned; if it has no flaw, test it, and check it as held."""
         reason, depth = self._flaw(T_object_hand, joint_angles_rad)
         planned = GraspTrial(reason, T_object_hand, joint_angles_rad, depth, 0.0, 0.0, [])
         if reason:
@@ -152,7 +153,7 @@ class GraspTester:
         if held.dropped:
             return planned._replace(reason="dropped", moved_m=moved[0], turned_rad=moved[1])
         angles = held.joint_angles_rad.copy()
-        angles[:2] = angles[:2].mean()  # one motor turns both spreads; each is held by itself here
+        angles[:2] = angles[:2].mean()  # one motor turns both spreads, but the simulation has two
         angles = np.clip(angles, *kinematics.JOINT_LIMITS_RAD.T)
         reason, depth = self._flaw(held.T_object_hand, angles)
         links = {contact.link for contact in held.contacts}
@@ -163,10 +164,10 @@ class GraspTester:
         return GraspTrial(reason, held.T_object_hand, angles, depth, *moved, held.contacts)
 
     def _flaw(self, T_object_hand: Array, angles: Array) -> tuple[str, float]:
-        """What is wrong with a pose by geometry alone, and how deep hand and object overlap.
+        """Geometric flaw of a pose, and penetration depth of hand and object.
 
-        Points of the hand are looked for in the object and points of the object in the hand: a
-        thin wall can cut into a link between the points of either.
+        Both the hand's points in the object and the object's points in the hand are checked,
+        because a thin wall can cut into a link between the points of either.
         """
         poses = T_object_hand @ kinematics.link_poses(angles)
         close = closeness(self.scene, poses[None])
@@ -190,7 +191,7 @@ class GraspTester:
 def _until_kept(
     ranked: RankedGrasps, tester: GraspTester, cost: Callable[[Array, Array], Array], kept: float
 ) -> Iterator[GraspTrial]:
-    """Trials in the order of the ranking, up to the first valid one that has kept its grip."""
+    """Trials in order of rank, up to the first valid one that kept its grip."""
     for T_object_hand, angles in zip(*ranked.hands, strict=True):
         trial = tester.try_grasp(T_object_hand, angles)
         poses = trial.T_object_hand @ kinematics.link_poses(trial.joint_angles_rad)
@@ -201,7 +202,7 @@ def _until_kept(
 
 
 def _best(trials: Sequence[GraspTrial]) -> int:
-    """The last trial if it kept the grip, else the valid one that left it least, else the first."""
+    """The last trial if it kept the grip, else the least deviating valid one, else the first."""
     valid = [rank for rank, trial in enumerate(trials) if not trial.reason]
     return min(valid, key=lambda rank: trials[rank].deviation, default=0)
 
