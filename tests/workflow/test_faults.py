@@ -25,7 +25,7 @@ def is_whole(repository: Repository, complete: Repository) -> bool:
     return checksums(repository.path) == checksums(complete.path)
 
 
-@pytest.mark.parametrize("free_kb", [0, 300])
+@pytest.mark.parametrize("free_kb", [0, 300, 1500])
 def test_a_full_disk(
     complete: Repository, tmp_path: Path, mount: Callable[..., None], free_kb: int
 ) -> None:

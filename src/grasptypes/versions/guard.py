@@ -14,7 +14,7 @@ from grasptypes.errors import InputError, parsing
 from grasptypes.files import TEMPORARY, write_bytes
 
 # What a run writes before its first job.
-ROOM_BYTES = 2**17
+ROOM_BYTES = 2**20
 
 
 class FolderLock:
