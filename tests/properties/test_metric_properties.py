@@ -5,7 +5,6 @@ from examples_of import numbers
 from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
-from scipy.special import softmax
 
 from grasptypes.predictors.metrics import (
     angular_similarity,
@@ -65,17 +64,6 @@ def test_degenerate_sets(a):
     np.testing.assert_array_equal(multilabel_accuracy(none, a), ~some)
     np.testing.assert_allclose(multilabel_accuracy(every, a), a.mean(axis=1))
     np.testing.assert_allclose(multilabel_precision(every, a), a.mean(axis=1))
-
-
-@given(LOGITS, st.floats(-20, 20), ORDERS)
-def test_softmax_is_a_distribution_that_a_shift_does_not_change(logits, shift, order):
-    probability = softmax(logits, axis=-1)
-    np.testing.assert_allclose(probability.sum(axis=1), 1, atol=1e-12)
-    assert (probability >= 0).all()
-    np.testing.assert_allclose(softmax(logits + shift, axis=-1), probability, atol=1e-9)
-    np.testing.assert_allclose(
-        softmax(logits[:, order], axis=-1), probability[:, order], atol=1e-12
-    )
 
 
 @given(LOGITS)

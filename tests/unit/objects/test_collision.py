@@ -2,15 +2,16 @@
 
 import numpy as np
 import pytest
+from tests.unit.settings import PARAMS
 
 from grasptypes.objects import collision, solids, vessels
 
-LIMITS = {"max_parts": 64, "max_gap_m": 3e-4, "tolerance_m": 4e-4, "max_vertices": 160}
+RESOLUTION = PARAMS.objects.resolution
 
 
 @pytest.fixture(scope="module")
 def mug_hulls():
-    return collision.convex_parts([part.solid for part in vessels.mug().parts], **LIMITS)
+    return collision.convex_parts([part.solid for part in vessels.mug().parts], RESOLUTION)
 
 
 def test_hulls_are_convex_few_and_light(mug_hulls):
@@ -35,14 +36,14 @@ def test_hulls_cover_the_mug(mug_hulls):
 
 
 def test_convex_solid_stays_whole():
-    hulls = collision.convex_parts([solids.box((0.05, 0.04, 0.03))], **LIMITS)
+    hulls = collision.convex_parts([solids.box((0.05, 0.04, 0.03))], RESOLUTION)
     assert len(hulls) == 1
     assert hulls[0].volume() == pytest.approx(0.05 * 0.04 * 0.03)
 
 
 def test_round_hulls_are_lightened_evenly():
     ball = solids.sphere(0.04, 128)
-    (hull,) = collision.convex_parts([ball], **LIMITS)
+    (hull,) = collision.convex_parts([ball], RESOLUTION)
     assert hull.num_vert() <= 160
     assert hull.volume() == pytest.approx(ball.volume(), rel=0.06)
     assert np.abs(hull.bounding_box()) == pytest.approx(np.full(6, 0.04), abs=1e-3)

@@ -1,18 +1,18 @@
 """A user's mesh is read, mended, or refused in one line that says why."""
 
 import os
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 import trimesh
-from tests.unit.settings import RAW
+from tests.unit.settings import PARAMS
 
 from grasptypes.errors import InputError
-from grasptypes.objects.mesh_import import ImportLimits, import_model
+from grasptypes.objects.mesh_import import import_model
+from grasptypes.settings.objects import OwnObject
 
-LIMITS = ImportLimits(**RAW["objects"]["import"] | {"rebuild_cells": 64})
+LIMITS = PARAMS.objects.import_.changed(rebuild_cells=64)
 
 
 def ball(radius=0.04):
@@ -20,7 +20,7 @@ def ball(radius=0.04):
 
 
 def own(path, unit="m", **keywords):
-    return {"file": str(path), "unit": unit, "density_kg_m3": 1000.0, **keywords}
+    return OwnObject(file=str(path), unit=unit, density_kg_m3=1000.0, **keywords)
 
 
 def refusal(path, unit="m"):
@@ -134,7 +134,7 @@ def test_files_without_faces_are_refused(tmp_path):
 @pytest.mark.parametrize("name", ["mug", "mouse", "flashlight", "pan"])
 def test_real_scans_come_through(name):
     path = Path(os.environ["GRASPTYPES_REFERENCE_MESHES"]) / f"{name}.stl"
-    solid = import_model(own(path), replace(LIMITS, rebuild_cells=128)).model.parts[0].solid
+    solid = import_model(own(path), LIMITS.changed(rebuild_cells=128)).model.parts[0].solid
     extent = np.ptp(np.reshape(solid.bounding_box(), (2, 3)), axis=0)
     assert extent == pytest.approx(trimesh.load_mesh(path).extents, abs=0.003)
     assert solid.volume() == pytest.approx(trimesh.load_mesh(path).volume, rel=0.1)

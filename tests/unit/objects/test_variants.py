@@ -9,14 +9,11 @@ from grasptypes.objects.catalogue import OBJECTS
 from grasptypes.objects.parts import Material, ObjectModel, Part
 from grasptypes.objects.variants import all_objects, base_of, variant_names, variant_of
 from grasptypes.objects.variation import Variation, build_variant, vary
-from grasptypes.settings.objects import ObjectSettings
+from grasptypes.settings.objects import ObjectSettings, VariationRanges
 
-RANGES = {
-    "size": [0.85, 1.2],
-    "stretch": [0.88, 1.14],
-    "balance": [-0.06, 0.06],
-    "taper": [-0.12, 0.12],
-}
+RANGES = VariationRanges(
+    size=(0.85, 1.2), stretch=(0.88, 1.14), balance=(-0.06, 0.06), taper=(-0.12, 0.12)
+)
 GREY = Material((0.5, 0.5, 0.5, 1.0))
 
 

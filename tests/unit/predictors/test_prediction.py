@@ -113,7 +113,7 @@ def _huge(folder):
         (("--image", "photo.png", "--task", "use", "--model", "d"), "is not trained yet; run:", 1),
         (("--image", "photo.png", "--task", "use", "--picture", "o.jpg"), "must end in .png", 1),
         (("--image", ".", "--task", "use", "--picture", "."), "must end in .png", 1),
-        (("--object", "photo.png", "--task", "use"), "not a mesh format", 1),
+        (("--object", "photo.png", "--task", "use"), "is not a supported mesh format", 1),
         (("--task", "use"), "one of the arguments --image --object is required", 2),
         (("--image", "photo.png", "--colour"), "unrecognized arguments: --colour", 2),
     ],
@@ -134,7 +134,7 @@ def test_one_bad_picture_of_a_folder_stops_everything(predict, tmp_path, monkeyp
     drawn = tmp_path / "new" / "drawn.png"
     out, err, status = predict("--image", tmp_path, "--model", "a", "--picture", drawn)
     assert (out, status) == ("", 1)
-    assert "zero.png: not a picture" in err
+    assert "zero.png: not an image" in err
     assert not drawn.parent.exists()
 
 
