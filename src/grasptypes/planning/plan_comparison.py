@@ -1,8 +1,8 @@
-"""What it buys to choose grasp types before grasps are planned.
+"""Study: does it help to choose grasp types before planning grasps?
 
-Every object and task is planned three times, with as many sessions: with the grips of the types
-that a predictor chooses which has not seen the object, with those of the types that the labels of
-the dataset hold, and with all grips in turn, choosing nothing.
+Every object and task is planned three times with equally many sessions: with the grips of the types
+chosen by a predictor that has not seen the object, with those of the types in the dataset's labels,
+and with all grips in turn.
 """
 
 from __future__ import annotations
@@ -46,18 +46,18 @@ PLANNING_SCHEMA = pa.DataFrameSchema(
 
 
 class Case(NamedTuple):
-    """One plan to be made."""
+    """One plan to make."""
 
     context: PlanningContext
     choice: str
     types: Mapping[str, Sequence[str]]
-    """Grasp types by who chooses them, of `CHOICES` without `ANY`."""
+    """Grasp types by way of choosing them, of `CHOICES` without `ANY`."""
 
 
 def compare(
     cases: Sequence[Case], jobs: int, tell: Callable[[str], None] = lambda line: None
 ) -> pd.DataFrame:
-    """A row a case: a table of `PLANNING_SCHEMA`, the same for any number of jobs."""
+    """One row per case: a table of `PLANNING_SCHEMA`, independent of the number of jobs."""
     rows = []
     for row in _outcomes(cases, jobs):
         rows.append(row)
@@ -66,7 +66,7 @@ def compare(
 
 
 def outcome(case: Case) -> dict[str, Any]:
-    """Make one plan and count."""
+    """Make and evaluate one plan."""
     context, params = case.context, case.context.params
     types = GRASP_TYPES[:-1] if case.choice == ANY else case.types[case.choice]
     settings = params.contact_maps.changed(sessions=params.plan.comparison.sessions)
@@ -88,14 +88,14 @@ def outcome(case: Case) -> dict[str, Any]:
 
 
 def tests(attempts: pd.DataFrame) -> int:
-    """How many hands physics saw; under gravity every object moves, if only by micrometres."""
+    """Number of physics tests; under gravity every object moves, if only by micrometres."""
     return int((attempts.moved_m > 0).sum())
 
 
 def summary(table: pd.DataFrame) -> pd.DataFrame:
-    """A row a choice: tests a valid grasp, and the median energy of the best, by kind of grasp.
+    """One row per choice: tests per valid grasp, and median energy of the best, by kind of grasp.
 
-    Energies are compared where all three choices have a grasp of that kind.
+    Energies are compared only where all three choices have a grasp of that kind.
     """
     rows = {}
     for choice in CHOICES:
@@ -112,15 +112,15 @@ def summary(table: pd.DataFrame) -> pd.DataFrame:
 
 
 def savings(table: pd.DataFrame) -> pd.DataFrame:
-    """Tests a valid grasp of the chosen types, less those with all types, where plans differ.
+    """Tests per valid grasp of the chosen types, minus those with all types, where plans differ.
 
-    Six types are held with four grips, so types that need all four are planned for as all types
-    are: such plans say nothing of the choice and are left out.
+    Six types share four grips, so types that need all four grips give the same plan as all types:
+    such plans say nothing about the choice and are left out.
 
     Returns:
-        A row a choice but `ANY`: number of `plans` (object, task) that differ and of their
-        `objects`, `saving`, and its `error`: the jackknife's standard error over these objects, NaN
-        with fewer than two.
+        One row per choice except `ANY`: number of `plans` (object, task) that differ and of their
+        `objects`, the `saving`, and its `error`: the jackknife standard error over these objects,
+        NaN for fewer than two.
     """
     rows = {}
     everything = grips_of(GRASP_TYPES[:-1])
@@ -146,7 +146,7 @@ def savings(table: pd.DataFrame) -> pd.DataFrame:
 
 
 def _saving(chosen: np.ndarray, everything: np.ndarray) -> float:
-    """Tests a valid grasp less the same with all types, from (tests, valid grasps) of both."""
+    """Tests per valid grasp minus the same with all types, from (tests, valid grasps) of both."""
     if not (chosen[1] and everything[1]):
         return float("nan")
     return float(chosen[0] / chosen[1] - everything[0] / everything[1])
@@ -187,9 +187,9 @@ def _outcomes(cases: Sequence[Case], jobs: int) -> Iterator[dict[str, Any]]:
 
 
 def _counts(attempts: pd.DataFrame, suffix: str, types: Sequence[str]) -> dict[str, Any]:
-    """Sessions with a valid grasp of the types among all their tries, and the best energy.
+    """Sessions with a valid grasp of the types among all tries, and the best energy.
 
-    Not the grasp that the plan chose of each session: that depends on the types planned for.
+    The grasp that the plan chose in each session is not used, since it depends on the types.
     """
     found = attempts[attempts.valid & attempts.grasp_type.isin(types)]
     return {f"valid{suffix}": found.session.nunique(), f"energy{suffix}": found.energy.min()}

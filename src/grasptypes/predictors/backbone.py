@@ -14,13 +14,13 @@ from grasptypes.predictors.weights import Weights
 
 @dataclass(frozen=True)
 class BackboneSpec:
-    """What is known of a network before it is built.
+    """Specification of a network before it is built.
 
     Attributes:
-        mean: of each RGB channel in [0, 1], as the weights were trained.
-        deviation: of each RGB channel, likewise.
-        pooled: channels of the blocks whose outputs are features, by number of the block: the last
-            one at each of the network's five resolutions, from a half to a thirty-second.
+        mean: mean of each RGB channel in [0, 1], as used to train the weights.
+        deviation: standard deviation of each RGB channel, likewise.
+        pooled: channels of the blocks whose outputs are features, by block number: the last block
+            at each of the network's five resolutions, from 1/2 to 1/32.
     """
 
     mean: tuple[float, float, float]
@@ -45,17 +45,17 @@ KINDS = {
 
 
 class Backbone(nn.Module):
-    """Pictures to features, with the preprocessing the weights were trained with.
+    """Images to features, with the preprocessing that the weights were trained with.
 
-    The features are the means of the last block's output and of the last one at every finer
-    resolution. The last block alone is trained to name the object under any light: a shift of all
-    colours by 10 levels, which shows the task in a picture, hardly reaches it (a linear probe tells
-    the two shifts apart in 69 % of the pictures), but the finer ones show it (100 %).
+    The features are the spatial means of the last block's output and of the last one at every finer
+    resolution. The last block was trained to recognise objects under any lighting: a shift of all
+    colours by 10 levels, which encodes the task, hardly reaches it (a linear probe distinguishes
+    the two shifts in 69 % of the images), but it is visible at finer resolutions (100 %).
 
     Args:
-        blocks: of the network, first to last; fine-tuning thaws from the end.
-        kind: which network they belong to.
-        input_px: height and width at which the network sees a picture.
+        blocks: blocks of the network, first to last; fine-tuning starts from the end.
+        kind: the network they belong to.
+        input_px: height and width of the network's input.
     """
 
     mean: Tensor
@@ -72,7 +72,7 @@ class Backbone(nn.Module):
         self.register_buffer("deviation", deviation, persistent=False)
 
     def forward(self, pictures: Tensor) -> Tensor:
-        """Features (B, F) of pictures (B, H, W, 3) uint8, coarsest resolution last."""
+        """Features (B, F) of images (B, H, W, 3) uint8, coarsest resolution last."""
         x = pictures.permute(0, 3, 1, 2).to(torch.float32)
         size = (self.input_px, self.input_px)
         x = nn.functional.interpolate(x, size, mode="bilinear", antialias=True)
@@ -81,16 +81,17 @@ class Backbone(nn.Module):
         for number, block in enumerate(self.blocks):
             x = block(x)
             if number in self.kind.pooled:
-                # In single precision: bfloat16 would round away how a task shifts the colours.
+                # In single precision: bfloat16 would round away the colour shift of a task.
                 pooled.append(x.to(torch.float32).mean(dim=(2, 3)))
         return torch.cat(pooled, dim=1)
 
 
 def load_backbone(weights: Weights, input_px: int) -> Backbone:
-    """The backbone with its weights, in evaluation mode; the weights are read as tensors only.
+    """The backbone with its weights, in evaluation mode; only tensors are read from the file.
 
     Raises:
-        InputError: the file is damaged, holds anything but finite tensors, or fits another network.
+        InputError: the file is damaged, has content other than finite tensors, or does not fit the
+            network.
     """
     with parsing(weights.path, "not a file of tensors"):
         state = torch.load(weights.path, map_location="cpu", weights_only=True)
@@ -112,7 +113,7 @@ def _is_weight(name: object, value: object) -> bool:
 def untrained_backbone(
     name: str, input_px: int, state: Mapping[str, Tensor] | None = None, file: str = ""
 ) -> Backbone:
-    """The network called ``name``, with ``state`` or else with its random start."""
+    """The network called ``name``, with the weights ``state`` or random ones."""
     network, blocks = _NETWORKS[name]()
     if state is not None:
         try:
@@ -124,14 +125,14 @@ def untrained_backbone(
 
 
 def thaw(backbone: Backbone, finetune: str, last_blocks: int) -> list[nn.Parameter]:
-    """Choose what training may change.
+    """Select the parameters to train.
 
     Args:
         finetune: ``none``, ``last_blocks`` or ``all``.
-        last_blocks: how many blocks from the end ``last_blocks`` means.
+        last_blocks: number of blocks from the end for ``last_blocks``.
 
     Returns:
-        The parameters that may change; all others are frozen.
+        The parameters to train; all others are frozen.
     """
     for parameter in backbone.parameters():
         parameter.requires_grad_(False)
@@ -155,7 +156,7 @@ def _efficientnet_lite0() -> tuple[nn.Module, list[nn.Module]]:
     from efficientnet_lite_pytorch import EfficientNet
 
     network = EfficientNet.from_name("efficientnet-lite0")
-    # Its blocks one by one, as its own extract_features runs them in evaluation mode.
+    # The blocks one by one, as in its own extract_features in evaluation mode.
     first = nn.Sequential(network._conv_stem, network._bn0, network._swish)
     last = nn.Sequential(network._conv_head, network._bn1, network._swish)
     return network, [first, *network._blocks, last]

@@ -1,4 +1,4 @@
-"""What predictors that know less than the picture and the task can reach with given labels."""
+"""Scores that predictors without the image or the task can reach with given labels."""
 
 from __future__ import annotations
 
@@ -23,13 +23,13 @@ def ceilings(labels: np.ndarray) -> pd.DataFrame:
     """The three reference predictors.
 
     ``task_blind`` knows the object but not the task, ``best_constant`` gives one answer for
-    everything, ``all_types`` answers all types. The first two are oracles: they are fitted to the
-    labels that they are scored on; :func:`constant_of_others` is not. Vectors are the mean of the
-    unit label vectors. For two samples no other vector is more similar to both. For more it has the
-    largest mean cosine, not the largest mean angular similarity, so the similarity of
-    ``best_constant``, and that of ``task_blind`` with three tasks or more, is only a lower bound of
-    the best there is. Accuracy and precision are each of the set that is best in it: for precision
-    that is a single type.
+    everything, ``all_types`` answers all types. The first two are oracles, fitted to the labels
+    that they are scored on; :func:`constant_of_others` is not. Vectors are the mean of the unit
+    label vectors. For two samples no vector is more similar to both. For more samples this
+    maximises the mean cosine, not the mean angular similarity, so the similarity of
+    ``best_constant``, and of ``task_blind`` with three or more tasks, is only a lower bound on the
+    optimum. Accuracy and precision are those of the set that is best in each: for precision, a
+    single type.
 
     Args:
         labels: (objects, tasks, K) truth values.
@@ -50,17 +50,17 @@ def ceilings(labels: np.ndarray) -> pd.DataFrame:
 def constant_of_others(samples: pd.DataFrame, joint: bool) -> pd.DataFrame:
     """Scores on each object of the constant answer that is best for the other objects.
 
-    The answer is chosen as that of ``best_constant`` in :func:`ceilings`, on the labels that a
-    predictor is trained on that the object is left out of: not those of its variants either. In
-    accuracy it is weak: where two sets are nearly as good for all objects, leaving out one that
-    speaks for the first lets the second win, and the accuracy falls.
+    The answer is chosen like ``best_constant`` in :func:`ceilings`, on the labels that a predictor
+    is trained on when the object and its variants are left out. Its accuracy is weak: if two sets
+    are nearly equally good for all objects, leaving out an object that favours the first lets the
+    second win.
 
     Args:
         samples: of :mod:`grasptypes.labels.samples`.
         joint: see :func:`labels_asked`.
 
     Returns:
-        index object (no variants), columns the three measures, means over what is asked.
+        index object (no variants), columns the three measures, averaged over the tasks.
     """
     labels = labels_asked(samples, joint)
     rows = {}
@@ -71,11 +71,11 @@ def constant_of_others(samples: pd.DataFrame, joint: bool) -> pd.DataFrame:
 
 
 def labels_asked(samples: pd.DataFrame, joint: bool) -> np.ndarray:
-    """The labels that a model is asked for, objects in alphabetical order.
+    """The labels that a model has to predict, with objects in alphabetical order.
 
     Args:
         samples: of :mod:`grasptypes.labels.samples`.
-        joint: asked for the types of all tasks together.
+        joint: whether to predict the types of all tasks together.
 
     Returns:
         (objects, tasks, 6) truth values; with ``joint`` (objects, 1, 6).
@@ -85,7 +85,7 @@ def labels_asked(samples: pd.DataFrame, joint: bool) -> np.ndarray:
 
 
 def _best(groups: np.ndarray) -> tuple[float, float, float]:
-    """Scores of the answers to groups (G, N, K) on these groups."""
+    """Scores of the best answers to groups (G, N, K) on the same groups."""
     return _scores(groups, *_answers(groups))
 
 
@@ -96,7 +96,7 @@ def _answers(groups: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         groups: (G, N, K) truth values.
 
     Returns:
-        (G, 1, K) vectors, and twice (G, 1, K) sets as truth values: for accuracy, for precision.
+        (G, 1, K) vectors, and two (G, 1, K) sets as truth values, for accuracy and for precision.
     """
     units = groups / np.linalg.norm(groups, axis=-1, keepdims=True)
     candidates = np.array(list(product([False, True], repeat=groups.shape[-1]))[1:])

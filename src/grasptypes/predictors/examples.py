@@ -1,4 +1,4 @@
-"""What a predictor learns from: one example a picture, or a picture and task."""
+"""Training examples of a predictor: one per image, or per image and task."""
 
 from __future__ import annotations
 
@@ -16,12 +16,12 @@ from grasptypes.predictors.predictor import Variant
 
 @dataclass(frozen=True)
 class Examples:
-    """Aligned arrays, one row an example.
+    """Aligned arrays, one row per example.
 
     Attributes:
         index: columns object, view, task (empty for joint labels) and fold.
-        inputs: (N, F) float32 features, or (N, H, W, 3) uint8 pictures.
-        task_vectors: (N, T) float32 one-hot, or None for a predictor that is not told the task.
+        inputs: (N, F) float32 features, or (N, H, W, 3) uint8 images.
+        task_vectors: (N, T) float32 one-hot, or None for a predictor without a task vector.
         labels: (N, types) float32 of 0 and 1.
         probabilities: (N, types) float32, sum 1.
     """
@@ -43,14 +43,14 @@ def assemble(
     """The examples of one variant.
 
     Args:
-        variant: what it sees and answers.
-        inputs: object to encoding to one input a view, (V, ...).
+        variant: input and output of the predictor.
+        inputs: object to encoding to one input per view, (V, ...).
         samples: table of :mod:`grasptypes.labels.samples`.
         folds: table of :mod:`grasptypes.predictors.folds`.
         tasks: in the order of the task vector.
 
     Raises:
-        InputError: an object or task has no label, or pictures and folds do not match.
+        InputError: an object or task has no label, or images and folds do not match.
     """
     label_of = samples.set_index(["object", "task"])[list(LABELS)]
     asked = [""] if variant.joint_labels else list(tasks)

@@ -1,4 +1,4 @@
-"""Frozen features of all pictures of an object, one set an encoding of the task."""
+"""Frozen features of all images of an object, one set per encoding of the task."""
 
 from __future__ import annotations
 
@@ -18,16 +18,16 @@ NO_TASK = "none"  # the encoding without a task
 
 
 def encodings(tasks: Mapping[str, int]) -> dict[str, int]:
-    """What is added to each RGB value: 0 for ``none``, and each task's own shift.
+    """Colour shift of each encoding: 0 for ``none``, and that of each task.
 
     Args:
-        tasks: the colour shift of each, in the order of the task vector.
+        tasks: colour shift of each task, in the order of the task vector.
     """
     return {NO_TASK: 0} | dict(tasks)
 
 
 def shift_colours(pictures: np.ndarray, shift: int) -> np.ndarray:
-    """Show a task in pictures: ``shift`` is added to each RGB value, clipped to [0, 255].
+    """Encode a task in images: add ``shift`` to each RGB value, clipped to [0, 255].
 
     Paper, section III-D. Args: pictures (..., 3) uint8. Returns: the same shape and type.
     """
@@ -35,10 +35,10 @@ def shift_colours(pictures: np.ndarray, shift: int) -> np.ndarray:
 
 
 def read_pictures(path: str | Path) -> np.ndarray:
-    """The pictures of a data/renders archive in the order of their names: (N, H, W, 3) uint8.
+    """Images of a data/renders archive, sorted by name: (N, H, W, 3) uint8.
 
     Raises:
-        InputError: not an archive, or a member is not a picture.
+        InputError: the file is not an archive, or a member is not an image.
     """
     try:
         with zipfile.ZipFile(path) as archive:
@@ -64,13 +64,13 @@ def extract(
     precision: str,
     batch: int,
 ) -> dict[str, np.ndarray]:
-    """Features of the pictures in every encoding.
+    """Features of the images in every encoding.
 
     Args:
         pictures: (N, H, W, 3) uint8.
         shifts: encoding to colour shift, see :func:`encodings`.
         precision: ``fp32`` or ``bf16`` (autocast; more than twice as fast on CPUs that have it).
-        batch: pictures at once; a speed setting that hardly changes the result.
+        batch: images per batch; affects speed and hardly the result.
 
     Returns:
         encoding to (N, F) float32.
@@ -85,7 +85,7 @@ def extract(
 
 
 def for_inference(backbone: Backbone) -> Backbone:
-    """The same backbone in evaluation mode, in the memory layout that suits CPUs."""
+    """The same backbone in evaluation mode, in the memory layout that is fastest on CPUs."""
     return backbone.to(memory_format=torch.channels_last).eval()
 
 

@@ -1,4 +1,4 @@
-"""Training of a head together with the last blocks of the backbone, or with all of it."""
+"""Training of a head together with the last blocks of the backbone, or all of it."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ LOGGER = logging.getLogger("grasptypes")
 
 
 class Network(torch.nn.Module):
-    """A backbone and one head: pictures and task to logits."""
+    """A backbone and one head: images and task to logits."""
 
     def __init__(self, backbone: Backbone, head: BatchedMLP) -> None:
         super().__init__()
@@ -28,7 +28,7 @@ class Network(torch.nn.Module):
         self.head = head
 
     def forward(self, pictures: torch.Tensor, task: torch.Tensor | None = None) -> torch.Tensor:
-        """Logits (B, types) of pictures (B, H, W, 3) uint8 and tasks (B, T) one-hot."""
+        """Logits (B, types) of images (B, H, W, 3) uint8 and tasks (B, T) one-hot."""
         features = self.backbone(pictures)
         return self.head(features[None], None if task is None else task[None])[0]
 
@@ -42,11 +42,11 @@ def fine_tune(
 ) -> tuple[Network, np.ndarray]:
     """Train a copy of the backbone with a head on one split.
 
-    Batch normalisation keeps its statistics: batches of one fold are too small to renew them.
+    Batch normalisation keeps its statistics: batches of one fold are too small to update them.
 
     Args:
-        examples: with pictures (N, H, W, 3) uint8 as inputs.
-        key: names the computation for its random numbers.
+        examples: with images (N, H, W, 3) uint8 as inputs.
+        key: name of the computation, for its random numbers.
 
     Returns:
         the network in evaluation mode, and the training loss of each epoch (epochs,).
@@ -87,7 +87,7 @@ def fine_tune(
 def predict_pictures(
     network: Network, examples: Examples, rows: Sequence[int] | np.ndarray, batch: int
 ) -> np.ndarray:
-    """Logits (len(rows), types) of pictures."""
+    """Logits (len(rows), types) of images."""
     rows = np.asarray(rows)
     chunks = [rows[start : start + batch] for start in range(0, len(rows), batch)]
     return torch.cat([network(*_inputs(examples, chunk)) for chunk in chunks]).numpy()

@@ -1,4 +1,4 @@
-"""Which pictures are tested in which fold."""
+"""Assignment of images to folds."""
 
 from __future__ import annotations
 
@@ -23,20 +23,21 @@ FOLD_SCHEMA = pa.DataFrameSchema(
 
 
 def split(views: Mapping[str, int], folds: int, seed: int) -> pd.DataFrame:
-    """Stratified folds over pictures (paper, section IV-A): each has its share of every object.
+    """Stratified folds over images (paper, section IV-A): each has its share of every object.
 
-    A fold is given to a picture, before tasks come in, so that all tasks of a picture lie in one.
+    Folds are assigned to images, regardless of tasks, so that all tasks of an image are in one
+    fold.
 
     Args:
-        views: object to its number of pictures.
+        views: object to its number of images.
         folds: number of folds.
-        seed: of the workflow.
+        seed: seed of the workflow.
 
     Returns:
-        one row a picture: object, view, fold; see :data:`FOLD_SCHEMA`.
+        one row per image: object, view, fold; see :data:`FOLD_SCHEMA`.
 
     Raises:
-        InputError: an object has fewer pictures than there are folds.
+        InputError: an object has fewer images than there are folds.
     """
     rows: list[pd.DataFrame] = []
     before = 0
@@ -47,7 +48,7 @@ def split(views: Mapping[str, int], folds: int, seed: int) -> pd.DataFrame:
                 "folds.count",
                 f"{folds} folds need as many views; {name} has {count}",
             )
-        # Counted on from object to object, so that odd pictures do not pile up in fold 0.
+        # Continue counting from object to object, so that leftover images do not pile up in fold 0.
         fold = (before + np.arange(count)) % folds
         before += count
         order = rng("folds", name, seed).permutation(count)

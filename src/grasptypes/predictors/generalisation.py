@@ -1,4 +1,4 @@
-"""What more shapes of every object buy on an object that was left out in all its shapes."""
+"""Effect of more shapes per object on objects that are left out in all their shapes."""
 
 from __future__ import annotations
 
@@ -57,12 +57,12 @@ GENERALISATION_SCHEMA = pa.DataFrameSchema(
 
 @dataclass(frozen=True)
 class VariantInputs:
-    """What trials choose from.
+    """The data of all trials.
 
     Attributes:
         objects: object to encoding to (V, F) features.
-        variants: the same of variants, whose labels are those of their objects.
-        samples: of :mod:`grasptypes.labels.samples`, of the objects.
+        variants: the same for variants, which have the labels of their objects.
+        samples: of :mod:`grasptypes.labels.samples`, for the objects.
         tasks: in the order of the task vector.
     """
 
@@ -79,14 +79,14 @@ def try_trial(
     settings: PredictorSettings,
     draws: tuple[int, int],
 ) -> pd.DataFrame:
-    """Leave out every object in turn, test on all its own pictures.
+    """Leave out every object in turn and test on all its own images.
 
     Args:
         model: name of the model.
-        draws: repetitions, and the workflow's seed.
+        draws: number of repetitions, and the workflow's seed.
 
     Returns:
-        one row an object and repetition, as :func:`grasptypes.predictors.scoring.score` gives them.
+        one row per object and repetition, as in :func:`grasptypes.predictors.scoring.score`.
     """
     seeds, seed = draws
     examples = trial_examples(known, model, trial)
@@ -97,13 +97,13 @@ def try_trial(
 
 
 def trial_examples(known: VariantInputs, model: str, trial: VariantTrial) -> Examples:
-    """All pictures of the objects and the first ones of their first variants."""
+    """Images of the objects, and the first images of their first variants."""
     inputs = dict(known.objects)
     for name in known.objects:
         for variant in variant_names(name, trial.shapes - 1):
             shown = known.variants[variant]
             inputs[variant] = {encoding: views[: trial.views] for encoding, views in shown.items()}
-    # Nothing is split into folds here: objects are left out.
+    # There are no folds here: objects are left out.
     folds = pd.concat(
         pd.DataFrame({"object": name, "view": np.arange(_views(shown)), "fold": 0})
         for name, shown in inputs.items()
@@ -117,13 +117,13 @@ def _views(shown: Mapping[str, np.ndarray]) -> int:
 
 
 def inherit(samples: pd.DataFrame, names: Sequence[str]) -> pd.DataFrame:
-    """Samples of objects and variants, a variant's being those of its object."""
+    """Samples of objects and variants; a variant has those of its object."""
     of_base = dict(list(samples.groupby("object")))
     return pd.concat([of_base[base_of(name)].assign(object=name) for name in names])
 
 
 def summarize(trials: pd.DataFrame, constant: Mapping[tuple[str, str], float]) -> pd.DataFrame:
-    """One row a label source, model and trial: a table of :data:`GENERALISATION_SCHEMA`.
+    """One row per label source, model and trial: a table of :data:`GENERALISATION_SCHEMA`.
 
     Args:
         trials: of :data:`TRIAL_SCHEMA`.
@@ -153,7 +153,7 @@ def summarize(trials: pd.DataFrame, constant: Mapping[tuple[str, str], float]) -
 
 
 def constant_similarity(samples: pd.DataFrame) -> dict[str, float]:
-    """Model to the similarity of the constant answer to what it is asked, fitted on the others.
+    """Model to the similarity of the constant answer fitted to the other objects.
 
     Args:
         samples: of :mod:`grasptypes.labels.samples`.
@@ -167,7 +167,7 @@ def constant_similarity(samples: pd.DataFrame) -> dict[str, float]:
 
 
 def _gain(trials: pd.DataFrame, group: pd.DataFrame, pictures: int) -> pd.Series | None:
-    """Similarity over that of one shape shown in as many pictures, an object left out each."""
+    """Gain in similarity over one shape with as many images, for each object left out."""
     first = group.iloc[0]
     alone = trials[
         (trials["labels"] == first["labels"])
@@ -182,7 +182,7 @@ def _gain(trials: pd.DataFrame, group: pd.DataFrame, pictures: int) -> pd.Series
 
 
 def describe(table: pd.DataFrame) -> str:
-    """One sentence on what the shapes bought.
+    """One sentence on the effect of more shapes.
 
     Args:
         table: of :data:`GENERALISATION_SCHEMA`.

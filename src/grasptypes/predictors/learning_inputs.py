@@ -1,4 +1,4 @@
-"""Reading what predictors learn from, and the record of the backbone that made it."""
+"""Reading the inputs of predictors, and the record of the backbone that made them."""
 
 from __future__ import annotations
 
@@ -17,13 +17,13 @@ from grasptypes.predictors.weights import Weights, find_weights
 
 @dataclass(frozen=True)
 class BackboneRecord:
-    """Which backbone is in use: what every table, run and figure shows.
+    """The backbone in use, as shown in every table, run and figure.
 
     Attributes:
         backbone: name of the network.
         weights: name and checksum of its weights.
-        sha256: of the weights file.
-        input_px: size at which it sees a picture.
+        sha256: checksum of the weights file.
+        input_px: size of its input image.
     """
 
     backbone: str
@@ -33,16 +33,16 @@ class BackboneRecord:
 
 
 def write_backbone_record(weights: Weights, input_px: int, path: str | Path) -> None:
-    """Record the weights that were found, without where they lie on this machine."""
+    """Record the weights that were found, without their path on this machine."""
     record = BackboneRecord(weights.backbone, weights.name, weights.sha256, input_px)
     write_json(path, asdict(record))
 
 
 def read_backbone_record(path: str | Path) -> BackboneRecord:
-    """The record.
+    """Read the record.
 
     Raises:
-        InputError: not a record.
+        InputError: the file is not a record.
     """
     try:
         return BackboneRecord(**json.loads(Path(path).read_text(encoding="utf-8")))
@@ -51,10 +51,10 @@ def read_backbone_record(path: str | Path) -> BackboneRecord:
 
 
 def recorded_weights(record: BackboneRecord) -> Weights:
-    """The recorded weights on this machine; no host is asked.
+    """The recorded weights on this machine, without network access.
 
     Raises:
-        InputError: what is found here is not what was recorded.
+        InputError: the weights found here are not the recorded ones.
     """
     weights = find_weights(timeout_s=0)
     if weights.sha256 != record.sha256:
@@ -70,11 +70,11 @@ def recorded_weights(record: BackboneRecord) -> Weights:
 def read_inputs(
     paths: Iterable[str | Path], tasks: Mapping[str, int]
 ) -> dict[str, dict[str, np.ndarray]]:
-    """Object to encoding to one input a view, from files named after their objects.
+    """Object to encoding to one input per view, from files named after their objects.
 
     Args:
-        paths: features (.npz), or archives of pictures (.zip) that are encoded here.
-        tasks: the colour shift of each, in the order of the task vector.
+        paths: features (.npz), or archives of images (.zip) that are encoded here.
+        tasks: colour shift of each task, in the order of the task vector.
 
     Returns:
         arrays (V, F) float32 or (V, H, W, 3) uint8.

@@ -1,4 +1,4 @@
-"""Which examples test a predictor on an object it has never seen, in none of its shapes."""
+"""Splits that test a predictor on objects it has not seen in any shape."""
 
 from __future__ import annotations
 
@@ -13,12 +13,12 @@ from grasptypes.predictors.training import Member
 def members_by_object(
     objects: Sequence[str], seeds: int, learnt: np.ndarray | None = None
 ) -> list[Member]:
-    """One member an object and seed, tested on it and trained on the others and their variants.
+    """One member per object and seed, tested on it and trained on the others with their variants.
 
     Args:
-        objects: (N,) of every example, variants among them.
-        seeds: repetitions.
-        learnt: (N,) truth values: which examples may be trained on; all if left out.
+        objects: (N,) object of every example, including variants.
+        seeds: number of repetitions.
+        learnt: (N,) which examples may be trained on; default: all.
     """
     column = np.asarray(objects)
     bases = np.array([base_of(name) for name in column])

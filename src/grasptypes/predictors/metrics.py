@@ -1,6 +1,7 @@
 """The three measures of the paper (section IV-B) between predicted and labelled grasp types.
 
-All functions take one row a sample and one column a grasp type, and return one value a sample.
+All functions take one row per sample and one column per grasp type, and return one value per
+sample.
 """
 
 from __future__ import annotations
@@ -24,13 +25,13 @@ def angular_similarity(predicted: ArrayLike, target: ArrayLike) -> np.ndarray:
         ValueError: a negative or non-finite entry, or a row without a direction.
     """
     first, second = _directions(predicted), _directions(target)
-    # The chord keeps its precision at small angles, where the arc cosine loses half the digits.
+    # The chord is accurate at small angles, where the arc cosine loses half the digits.
     half_chord = np.linalg.norm(first - second, axis=-1) / 2
     return 1 - 4 / np.pi * np.arcsin(np.clip(half_chord, 0, 1))
 
 
 def multilabel_accuracy(predicted: ArrayLike, target: ArrayLike) -> np.ndarray:
-    """Types in both sets over types in either; 1 if both sets are empty.
+    """Intersection over union of the two sets of types; 1 if both are empty.
 
     Args:
         predicted: (..., K) truth values.
@@ -41,7 +42,7 @@ def multilabel_accuracy(predicted: ArrayLike, target: ArrayLike) -> np.ndarray:
 
 
 def multilabel_precision(predicted: ArrayLike, target: ArrayLike) -> np.ndarray:
-    """Types in both sets over predicted types; 0 if none is predicted (1 if none is right).
+    """Share of predicted types that are correct; for no prediction 0, or 1 if there is no type.
 
     Args:
         predicted: (..., K) truth values.
@@ -53,13 +54,13 @@ def multilabel_precision(predicted: ArrayLike, target: ArrayLike) -> np.ndarray:
 
 
 def chosen(logits: ArrayLike) -> np.ndarray:
-    """(..., K) logits to the (..., K) types whose sigmoid exceeds 0.5."""
+    """Types (..., K) whose sigmoid exceeds 0.5, from logits (..., K)."""
     limit = np.log(SIGMOID_THRESHOLD / (1 - SIGMOID_THRESHOLD))
     return np.asarray(logits) > limit
 
 
 def evaluate(logits: ArrayLike, labels: ArrayLike, probabilities: ArrayLike) -> dict[str, float]:
-    """The means over the samples of all three measures.
+    """Means of the three measures over the samples.
 
     Args:
         logits: (N, K) outputs of a predictor.

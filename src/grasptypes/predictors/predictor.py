@@ -1,4 +1,4 @@
-"""The predictors of the paper's Table I: what they see, what they answer, and their head."""
+"""The predictors of the paper's Table I: their inputs, outputs, and head."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from torch import Tensor, nn
 
 from grasptypes.seeds import seed
 
-OUTPUT_START = 0.1  # size of the last layer's random start, relative to He's
+OUTPUT_START = 0.1  # scale of the last layer's initial weights, relative to He initialisation
 LAYERS = 4  # fully connected layers of the head (paper, section III-D)
 
 
@@ -19,10 +19,10 @@ class Variant:
     """One row of Table I.
 
     Attributes:
-        row: its letter in the paper's table.
-        picture_shows_task: the task is shown by the shift of the picture's colours.
+        row: letter in the paper's table.
+        picture_shows_task: the task is encoded as a colour shift of the image.
         task_vector: the task is appended to the second fully connected layer as a one-hot vector.
-        joint_labels: the label holds the types of all tasks together.
+        joint_labels: the label contains the types of all tasks.
     """
 
     row: str
@@ -44,10 +44,10 @@ class Architecture:
     """Sizes of a head.
 
     Attributes:
-        inputs: features of a picture.
-        tasks: length of the task vector, 0 for a head that is not told the task.
+        inputs: number of features of an image.
+        tasks: length of the task vector, 0 for a head without one.
         hidden: outputs of the first three layers.
-        outputs: grasp types.
+        outputs: number of grasp types.
     """
 
     inputs: int
@@ -56,7 +56,7 @@ class Architecture:
     outputs: int
 
     def shapes(self) -> list[tuple[int, int]]:
-        """Inputs and outputs of the four layers; the task joins at the second."""
+        """Inputs and outputs of the four layers; the task enters at the second."""
         first, second, third = self.hidden
         return [
             (self.inputs, first),
@@ -67,15 +67,15 @@ class Architecture:
 
 
 class BatchedMLP(nn.Module):
-    """Any number of heads of one architecture, computed side by side.
+    """Any number of heads with the same architecture, computed in parallel.
 
-    Training the folds and seeds of a table together costs a fraction of training them in turn.
+    Training the folds and seeds of a table together costs a fraction of training them one by one.
 
     Args:
         architecture: the sizes.
-        keys: one for each head; it names the head's random start and its dropout (see
-            :mod:`grasptypes.seeds`), so that neither depends on the heads beside it.
-        dropout: share of the first two layers' outputs left out in training.
+        keys: one per head; it names the head's initial weights and dropout (see
+            :mod:`grasptypes.seeds`), so that neither depends on the other heads.
+        dropout: share of the first two layers' outputs dropped in training.
     """
 
     def __init__(
@@ -95,7 +95,7 @@ class BatchedMLP(nn.Module):
             start = [torch.randn(inputs, outputs, generator=g) for g in generators]
             self.weights.append(nn.Parameter(torch.stack(start) * (2 / inputs) ** 0.5))
             self.biases.append(nn.Parameter(torch.zeros(len(keys), 1, outputs)))
-        # Heads start close to no opinion; large first answers take most of training to unlearn.
+        # Initial outputs are close to zero; large ones take most of the training to unlearn.
         with torch.no_grad():
             self.weights[-1] *= OUTPUT_START
 
@@ -118,7 +118,7 @@ class BatchedMLP(nn.Module):
         return x
 
     def _drop_out(self, x: Tensor) -> Tensor:
-        """In training, set a share of (K, B, n) to zero and enlarge the rest to make up for it."""
+        """In training, set a share of (K, B, n) to zero and scale up the rest."""
         if not self.training or self.dropout == 0.0:
             return x
         draws = [torch.rand(x.shape[1:], generator=g) for g in self._dropouts]
@@ -126,11 +126,11 @@ class BatchedMLP(nn.Module):
 
     @torch.no_grad()
     def absorb(self, centre: Tensor, projection: Tensor) -> BatchedMLP:
-        """The same heads for inputs ``x`` where these take ``(x - centre) @ projection``.
+        """Equivalent heads for inputs ``x``, where these take ``(x - centre) @ projection``.
 
         Args:
-            centre: (K, 1, F) of each head.
-            projection: (K, F, inputs) of each head.
+            centre: (K, 1, F), one per head.
+            projection: (K, F, inputs), one per head.
         """
         sizes = self.architecture
         wide = Architecture(projection.shape[1], sizes.tasks, sizes.hidden, sizes.outputs)
@@ -147,17 +147,17 @@ def loss(
 ) -> Tensor:
     """Cross-entropy of the sigmoid with the labels plus that of the softmax with the probabilities.
 
-    With the first alone the softmax vector has an angular similarity of about 0.4, since nothing
-    asks the logits of the types that do not occur to be far below the others.
+    With the first term alone, the softmax vector has an angular similarity of about 0.4, because
+    nothing pushes the logits of absent types far below the others.
 
     Args:
         logits: (..., types).
         labels: (..., types) of 0 and 1.
         probabilities: (..., types), sum 1.
-        probability_weight: of the second term.
+        probability_weight: weight of the second term.
 
     Returns:
-        (...) one value a sample; labels' term is the mean over types.
+        (...) one value per sample; the term of the labels is the mean over types.
     """
     binary = nn.functional.binary_cross_entropy_with_logits(logits, labels, reduction="none")
     vector = -(probabilities * torch.log_softmax(logits, dim=-1)).sum(dim=-1)

@@ -1,4 +1,4 @@
-"""A learning problem read from files: examples, how to train on them, and with which backbone."""
+"""A learning problem read from files: examples, training settings, and backbone."""
 
 from __future__ import annotations
 
@@ -21,21 +21,21 @@ from grasptypes.predictors.predictor_files import ModelCard
 from grasptypes.settings.predictors import PredictorSettings
 from grasptypes.tables import read_table
 
-TRAINED_PRECISION = "fp32"  # in which fine-tuning computes
+TRAINED_PRECISION = "fp32"  # of fine-tuning
 
 
 @dataclass(frozen=True)
 class LearningProblem:
-    """What one model learns from one label source.
+    """Training data and settings of one model and label source.
 
     Attributes:
         labels: the label source.
         model: name of the variant.
-        tasks: the colour shift of each, in the order of the task vector.
-        examples: with features as inputs if the backbone is frozen, else with pictures.
-        settings: how to train.
-        record: the backbone in use.
-        backbone: to be fine-tuned; None if the backbone is frozen.
+        tasks: colour shift of each task, in the order of the task vector.
+        examples: with features as inputs if the backbone is frozen, else with images.
+        settings: training settings.
+        record: record of the backbone.
+        backbone: backbone to fine-tune; None if it is frozen.
     """
 
     labels: str
@@ -50,7 +50,7 @@ class LearningProblem:
         """The card of a predictor trained on this problem.
 
         Args:
-            precision: of the features, should the backbone be frozen.
+            precision: number format of the features, for a frozen backbone.
         """
         return ModelCard(
             model=self.model,
@@ -73,21 +73,21 @@ def read_problem(
     tasks: Mapping[str, int],
     settings: PredictorSettings,
 ) -> LearningProblem:
-    """The problem of a label source and model.
+    """Read the problem of a label source and model.
 
     Args:
-        files: ``inputs`` (features or pictures, a file an object to learn from), ``samples``,
-            ``folds`` and ``backbone`` (its record).
+        files: ``inputs`` (features or images, one file per object), ``samples``, ``folds`` and
+            ``backbone`` (its record).
         name: label source and model.
-        tasks: the colour shift of each, in the order of the task vector.
+        tasks: colour shift of each task, in the order of the task vector.
 
     Raises:
-        InputError: a file that is damaged or does not fit the others.
+        InputError: a file is damaged or inconsistent with the others.
     """
     labels, model = name
     record = read_backbone_record(files["backbone"])
     inputs, folds = read_inputs(files["inputs"], tasks), read_table(files["folds"], FOLD_SCHEMA)
-    # Not every label source knows every object that was split into folds.
+    # Not every label source has labels for every object in the folds.
     folds = folds[folds["object"].isin(inputs)]
     examples = assemble(VARIANTS[model], inputs, read_samples(files["samples"]), folds, list(tasks))
     backbone = None if settings.frozen else load_backbone(recorded_weights(record), record.input_px)

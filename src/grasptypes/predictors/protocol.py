@@ -1,4 +1,4 @@
-"""The paper's protocol (section IV-A): train on all splits and seeds, test, train once on all."""
+"""The paper's protocol (section IV-A): train and test all splits and seeds, then train on all."""
 
 from __future__ import annotations
 
@@ -33,12 +33,12 @@ def try_splits(
     key: tuple[str | int, ...],
     backbone: Backbone | None = None,
 ) -> Outcome:
-    """Train and test one predictor a member.
+    """Train and test one predictor per member.
 
     Args:
-        examples: features as inputs if the backbone is frozen, else pictures.
-        key: names the computation for its random numbers.
-        backbone: to be fine-tuned; only for settings that are not frozen.
+        examples: with features as inputs if the backbone is frozen, else images.
+        key: name of the computation, for its random numbers.
+        backbone: backbone to fine-tune, if the settings are not frozen.
     """
     if settings.frozen:
         heads, curves = fit(examples, members, settings, key)
@@ -55,7 +55,7 @@ def train_final(
     key: tuple[str | int, ...],
     backbone: Backbone | None = None,
 ) -> tuple[BatchedMLP, Backbone | None]:
-    """The predictor that is handed out, trained on all examples; its backbone if that changed."""
+    """The final predictor, trained on all examples, and its backbone if fine-tuned."""
     everything = Member("all", 0, np.arange(len(examples.inputs)), np.arange(0))
     if settings.frozen:
         return fit(examples, [everything], settings, key)[0], None

@@ -1,4 +1,4 @@
-"""Tables of how trained predictors did on what they were not trained on: a row a member."""
+"""Tables of test results of trained predictors, one row per member."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from grasptypes.predictors.metrics import METRICS, evaluate
 from grasptypes.predictors.predictor import VARIANTS
 from grasptypes.predictors.training import Member
 
-# Beginnings of the columns of a table, by measure.
+# Prefixes of the columns of a table, by measure.
 SHORT = {
     "angular_similarity": "sim",
     "multilabel_accuracy": "acc",
@@ -67,10 +67,10 @@ PREDICTION_SCHEMA = pa.DataFrameSchema(
 def score(
     examples: Examples, members: Sequence[Member], logits: Sequence[np.ndarray]
 ) -> tuple[pd.DataFrame, pd.DataFrame]:
-    """Metrics, one row a member; and predictions, one row a member and test example.
+    """Metrics, one row per member; and predictions, one row per member and test example.
 
     Args:
-        logits: for each member (m, types) of its test examples.
+        logits: for each member, (m, types) of its test examples.
     """
     metrics, predictions = [], []
     for member, outputs in zip(members, logits, strict=True):
@@ -88,7 +88,7 @@ def score(
 def with_source(
     metrics: pd.DataFrame, name: tuple[str, str], backbone: BackboneRecord, finetune: str
 ) -> pd.DataFrame:
-    """Metrics of :func:`score` as a table of :data:`METRIC_SCHEMA`: what they are made from.
+    """Metrics of :func:`score` as a table of :data:`METRIC_SCHEMA`, with their source.
 
     Args:
         name: label source and model.

@@ -1,4 +1,4 @@
-"""Training of heads on frozen features, all folds and seeds of a table at once."""
+"""Training of heads on frozen features, for all folds and seeds of a table at once."""
 
 from __future__ import annotations
 
@@ -20,11 +20,11 @@ LOGGER = logging.getLogger("grasptypes")
 
 @dataclass(frozen=True)
 class Member:
-    """One head to be trained: which examples it learns from and is tested on, and its key.
+    """One head to train: its training and test examples, and its key.
 
     Attributes:
-        group: name of the split, e.g. the fold; members of a group share their examples.
-        seed: repetition.
+        group: name of the split, for example the fold; members of a group share their examples.
+        seed: number of the repetition.
         train: (n,) rows of the examples.
         test: (m,) rows of the examples; may be empty.
     """
@@ -36,10 +36,10 @@ class Member:
 
 
 def members_by_group(groups: Sequence[object], seeds: int) -> list[Member]:
-    """One member a group and seed, tested on the group and trained on all others.
+    """One member per group and seed, tested on the group and trained on all others.
 
     Args:
-        groups: (N,) the group of every example, such as its fold or its object.
+        groups: (N,) group of every example, such as its fold or object.
     """
     column = np.asarray(groups)
     return [
@@ -55,22 +55,22 @@ def fit(
     settings: PredictorSettings,
     key: tuple[str | int, ...],
 ) -> tuple[BatchedMLP, np.ndarray]:
-    """Train one head a member.
+    """Train one head per member.
 
     The first layer is trained in the leading principal directions of each member's own training
-    features, and takes the features themselves afterwards: a change of coordinates that makes
-    training several times faster and leaves a head of four layers. All heads have as many
-    directions and take as many steps an epoch as the smallest training split allows.
+    features and then converted to take the features themselves: a change of coordinates that makes
+    training several times faster and keeps four layers. All heads use as many directions and as
+    many steps per epoch as the smallest training split allows.
 
     Args:
         examples: with features as inputs.
-        members: what to train.
-        settings: how.
-        key: names the computation for its random numbers.
+        members: heads to train.
+        settings: training settings.
+        key: name of the computation, for its random numbers.
 
     Returns:
-        the heads in evaluation mode, one a member, for features of F numbers; and the loss curves
-        (epochs, members, 2): training loss and test loss (NaN without test examples).
+        the heads in evaluation mode, one per member, for F features; and the loss curves (epochs,
+        members, 2): training loss and test loss (NaN without test examples).
     """
     features = torch.from_numpy(examples.inputs)
     views = {member.group: member for member in members}
@@ -101,7 +101,7 @@ def fit(
 
 @torch.inference_mode()
 def predict(heads: BatchedMLP, member: int, examples: Examples, rows: np.ndarray) -> np.ndarray:
-    """Logits (len(rows), types) of one of the heads."""
+    """Logits (len(rows), types) of one head."""
     one = BatchedMLP(heads.architecture, [()])
     one.load_state_dict({name: t[member : member + 1] for name, t in heads.state_dict().items()})
     inputs = torch.from_numpy(examples.inputs[rows])[None]
@@ -136,7 +136,7 @@ def _principal(features: Tensor, components: int, whitening: float) -> tuple[Ten
     directions = directions[:, -components:]
     scales = variances ** (-whitening / 2)
     overall = (variances * scales**2).mean().sqrt()
-    # The sign of an eigenvector is arbitrary; fix it, so that no library decides it.
+    # The sign of an eigenvector is arbitrary; fix it, so that it does not depend on the library.
     signs = directions.gather(0, directions.abs().argmax(dim=0, keepdim=True)).sign()
     return centre, directions * signs * scales / overall
 
@@ -192,7 +192,7 @@ def _descend(
 def _test_losses(
     heads: BatchedMLP, data: TrainingTensors, members: Sequence[Member], settings: PredictorSettings
 ) -> np.ndarray:
-    """(members,) mean loss over as many test examples as the smallest group has."""
+    """(members,) mean loss over as many test examples as in the smallest group."""
     count = min(len(member.test) for member in members)
     if count == 0:
         return np.full(len(members), np.nan)

