@@ -1,4 +1,4 @@
-"""Pictures a second through the backbone beside a plain fp32 torchvision loop, one thread each."""
+"""Images per second through the backbone beside a plain fp32 torchvision loop, one thread each."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from grasptypes.settings.params import Params
 
 
 def measure(settings: Mapping[str, Any], params: Params) -> Iterator[Figure]:
-    """Both go from pictures of the workflow's size to pooled features."""
+    """Both go from images of the workflow's size to pooled features."""
     torch.set_num_threads(1)
     weights = find_weights(timeout_s=0)
     pictures = read_pictures(sorted(Path("data/renders").glob("*.zip"))[0])[: settings["pictures"]]

@@ -1,4 +1,4 @@
-"""Finished pictures a second beside a bare pyrender loop over the same scenes.
+"""Finished images per second beside a bare pyrender loop over the same scenes.
 
 Both with the one thread that a job has: a renderer that takes all cores is not a job's rate.
 """

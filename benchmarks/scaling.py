@@ -10,7 +10,7 @@ benchmarks/scaling.yaml. Each size adds variants to the objects of the one befor
 they are. Times are processor times of whole calls of Snakemake with all they start, so that other
 work on the machine counts little:
 
-- `workflow`: all calls up to this size. It counts what is made anew at every size (next row) once
+- `workflow`: all calls up to this size. It counts what is recomputed at every size (next row) once
   for each, so it is an upper bound of a run from nothing.
 - `collecting`: the rules that read all objects: labels, folds, predictors and Table I.
 - `plan`: a dry run, which is start-up and the graph of all jobs.
@@ -88,7 +88,7 @@ def snakemake(*arguments: str) -> tuple[float, float]:
 
 
 def rule_rows() -> list[dict[str, Any]]:
-    """One row a rule: its jobs, and the memory of the largest."""
+    """One row per rule: its jobs, and the memory of the largest."""
     benchmarks, jobs = FOLDER / "logs/benchmarks", []
     for path in sorted(benchmarks.rglob("*.tsv")):
         rule = path.relative_to(benchmarks).parts[0].removesuffix(".tsv")

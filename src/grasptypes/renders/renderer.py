@@ -98,7 +98,7 @@ class Camera:
     def compose(
         self, picture: np.ndarray, points: np.ndarray, T_object_camera: np.ndarray
     ) -> np.ndarray:
-        """Lay a picture of :meth:`shoot` over the ground with its shadow: (size, size, 3) uint8."""
+        """Lay an image of :meth:`shoot` over the ground with its shadow: (size, size, 3) uint8."""
         settings = self.settings
         ground = (255 - picture[..., 3]) * np.float32(1 / 255)
         if settings.shadow_strength > 0:
@@ -142,7 +142,7 @@ class Views:
         return self._finished(self._camera.compose)
 
     def pngs(self) -> Iterator[bytes]:
-        """The pictures as PNG files, in order."""
+        """The images as PNG files, in order."""
         level = self._camera.settings.png_compression
         return self._finished(lambda *view: png_bytes(self._camera.compose(*view), level))
 

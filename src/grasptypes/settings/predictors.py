@@ -17,14 +17,14 @@ class BackboneSettings(Settings):
 
 
 class FeatureSettings(Settings):
-    """Frozen features of the pictures."""
+    """Frozen features of the images."""
 
     precision: Literal["fp32", "bf16"] = setting("number format of the network")
     batch: int = setting("pictures at once", ge=1, le=4096)
 
 
 class FoldSettings(Settings):
-    """Stratified folds over pictures."""
+    """Stratified folds over images."""
 
     count: int = setting("number of folds", ge=2, le=100)
 

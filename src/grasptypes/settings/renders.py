@@ -73,7 +73,7 @@ class SessionSheet(Settings):
 
 
 class GallerySettings(Settings):
-    """Pictures of grasps and their sheets."""
+    """Images of grasps and their sheets."""
 
     screenshot_px: int = setting("size of the picture of each grasp", ge=32, le=2048)
     size_px: int = setting("size at which grasps are drawn", ge=32, le=2048)
@@ -85,7 +85,7 @@ class GallerySettings(Settings):
 
 
 class ContactPictureSettings(Settings):
-    """Pictures of the contact maps."""
+    """Images of the contact maps."""
 
     size_px: int = setting("height of a picture and width of each of its two views", ge=32, le=2048)
     azimuth_rad: float = setting("of the first camera about z, from x", ge=-6.3, le=6.3)
