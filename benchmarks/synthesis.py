@@ -14,12 +14,12 @@ import pybullet
 from benchmarks.figures import Figure, NotReady, figure, rates, seconds
 
 from grasptypes.contact_maps.contact_map_files import read_contact_map
-from grasptypes.hand import kinematics
+from grasptypes.hand.states import HandStates
 from grasptypes.objects.object_geometry import read_object
 from grasptypes.seeds import rng
 from grasptypes.settings.params import Params
 from grasptypes.settings.synthesis import SynthesisSettings
-from grasptypes.synthesis.candidates import Demonstration, HandStates, draw_candidates
+from grasptypes.synthesis.candidates import Demonstration, draw_candidates
 from grasptypes.synthesis.energy import closeness, draw_targets, energies
 from grasptypes.synthesis.fields import distances
 from grasptypes.synthesis.hand_model import sample_hand
@@ -95,7 +95,7 @@ def _place(case: Case, demonstration: Demonstration, draw: np.random.Generator) 
     targets = draw_targets(demonstration, settings.energy, draw)
     touch_m = settings.closing.touch_m
     hands = draw_candidates(scene, demonstration, settings.candidates, touch_m, draw)
-    poses = hands.T_object_hand[:, None] @ kinematics.link_poses(hands.joint_angles_rad)
+    poses = hands.link_poses()
     energies(scene.hand, poses, closeness(scene, poses), targets, settings.energy)
 
 

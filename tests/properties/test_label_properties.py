@@ -22,23 +22,14 @@ from grasptypes.settings.grasp_types import Thresholds
 LINKS = len(kinematics.LINK_NAMES)
 
 
-def thresholds_of(limits):
-    """Thresholds without their ranges: the rule's laws hold for any numbers."""
-    return Thresholds.model_construct(**dict(zip(Thresholds.model_fields, limits, strict=True)))
-
-
-def limits_of(thresholds):
-    return [getattr(thresholds, name) for name in Thresholds.model_fields]
-
-
 @st.composite
 def measured(draw, count=8):
     """Thresholds, and measures some of which lie exactly on them."""
-    limits = draw(numbers(0.01, 0.2, 4))
+    thresholds = draw(numbers(0.01, 0.2, 4))
     values = draw(numbers(-0.01, 0.3, (count, 4)))
     exact = draw(st.lists(st.booleans(), min_size=4 * count, max_size=4 * count))
-    values = np.where(np.reshape(exact, values.shape), limits, values)
-    return Measures(*values.T), thresholds_of(limits)
+    values = np.where(np.reshape(exact, values.shape), thresholds, values)
+    return Measures(*values.T), thresholds
 
 
 @st.composite
@@ -53,13 +44,13 @@ def contacts(draw, count=3):
 
 def by_hand(palm, small, sideways, span, at):
     """The tree of docs/grasp_types.md, one grasp at a time."""
-    if palm <= at.palm_gap_m:
-        if small <= at.small_diameter_m:
+    if palm <= at[0]:
+        if small <= at[1]:
             return "Small Wrap"
-        if sideways > at.sideways_share:
+        if sideways > at[2]:
             return "Power Sphere"
-        return "Large Wrap" if span > at.large_span_m else "Medium Wrap"
-    return "Precision Sphere" if sideways > at.sideways_share else "Precision"
+        return "Large Wrap" if span > at[3] else "Medium Wrap"
+    return "Precision Sphere" if sideways > at[2] else "Precision"
 
 
 @given(measured())
@@ -73,9 +64,9 @@ def test_every_grasp_has_the_type_its_thresholds_say(drawn):
 @given(measured())
 def test_explanations_agree_with_the_types_and_measure_the_margin(drawn):
     measures, thresholds = drawn
-    for label, index in zip(
-        explain(measures, thresholds), classify(measures, thresholds), strict=True
-    ):
+    named = Thresholds(**dict(zip(Thresholds.model_fields, thresholds.tolist(), strict=True)))
+    types = classify(measures, thresholds)
+    for label, index in zip(explain(measures, named), types, strict=True):
         assert label.grasp_type == GRASP_TYPES[index]
         assert label.margin >= 0
         assert label.virtual_fingers == (3 if "Sphere" in label.grasp_type else 2)
@@ -86,7 +77,7 @@ def test_the_unit_of_length_does_not_count(drawn, power):
     measures, thresholds = drawn
     factors = [2.0**power, 2.0**power, 1.0, 2.0**power]  # exact, and the share has no unit
     scaled = Measures(*(m * f for m, f in zip(measures, factors, strict=True)))
-    limits = thresholds_of(np.multiply(limits_of(thresholds), factors))
+    limits = thresholds * factors
     np.testing.assert_array_equal(classify(scaled, limits), classify(measures, thresholds))
 
 

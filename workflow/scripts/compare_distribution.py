@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from grasptypes.jobs import job
-from grasptypes.labels.agreement import TYPES
+from grasptypes.labels.grasp_type import TYPES
 from grasptypes.labels.label_pictures import draw_distribution, save_figure
 from grasptypes.labels.samples import COUNT_SCHEMA, read_samples
 from grasptypes.reports.distribution import DISTRIBUTION_SCHEMA, compare_distributions, describe

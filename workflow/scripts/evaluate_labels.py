@@ -10,16 +10,15 @@ from grasptypes.jobs import job
 from grasptypes.labels.agreement import (
     AGREEMENT_SCHEMA,
     THRESHOLD_SCHEMA,
-    TYPES,
-    PublishedMeasures,
+    LabelledGrasps,
     agreement,
     confusion,
     cross_validate,
     describe_fit,
 )
-from grasptypes.labels.grasp_type import classify
+from grasptypes.labels.grasp_type import TYPES, classify, limits
 from grasptypes.labels.label_pictures import draw_confusion, save_figure
-from grasptypes.labels.published_data import lacking_data, read_measures
+from grasptypes.labels.published_data import labelled_grasps, lacking_data
 from grasptypes.labels.published_source import published_path
 from grasptypes.settings.grasp_types import GraspTypeSettings
 from grasptypes.tables import write_table
@@ -28,23 +27,21 @@ OWN_OBJECTS = Path("data/objects")
 
 
 def evaluate_labels(
-    published: PublishedMeasures, settings: GraspTypeSettings, table: Path, figure: Path
+    grasps: LabelledGrasps, settings: GraspTypeSettings, table: Path, figure: Path
 ) -> str:
     """Score the thresholds of the parameters; returns a line for the log."""
-    predicted = classify(published.measures, settings.thresholds)
-    scores = agreement(published, predicted, describe_fit(published.objects, settings.fitted_on))
+    predicted = classify(grasps.measures, limits(settings.thresholds))
+    scores = agreement(grasps, predicted, describe_fit(grasps.objects, settings.fitted_on))
     write_table(scores, table, AGREEMENT_SCHEMA)
     total = scores.iloc[-1]
     line = f"{total.n} poses: accuracy {total.accuracy:.3f}, kappa {total.kappa:.3f}"
-    save_figure(draw_confusion(confusion(published, predicted), TYPES, line), figure)
+    save_figure(draw_confusion(confusion(grasps, predicted), TYPES, line), figure)
     return line
 
 
-def validate_thresholds(
-    published: PublishedMeasures, settings: GraspTypeSettings, table: Path
-) -> str:
-    """Cross-validate over the objects in `fitted_on`; returns a line for the log."""
-    known = published.select(np.isin(published.objects, settings.fitted_on))
+def validate_thresholds(grasps: LabelledGrasps, settings: GraspTypeSettings, table: Path) -> str:
+    """Fit on all objects that `fitted_on` names but one, in turn; returns a line for the log."""
+    known = grasps.select(np.isin(grasps.objects, settings.fitted_on))
     scores = cross_validate(known, settings.softness)
     write_table(scores, table, THRESHOLD_SCHEMA)
     total = scores.iloc[-1]
@@ -53,15 +50,15 @@ def validate_thresholds(
 
 if __name__ == "__main__":
     with job(snakemake.log) as log:
-        out = snakemake.output
         settings = GraspTypeSettings.check(snakemake.params.settings)
+        out = snakemake.output
         lacking = lacking_data(os.environ)
         if lacking:
             raise InputError("reports/label_agreement.csv", "", f"cannot be made: {lacking}")
-        published = read_measures(os.environ, OWN_OBJECTS, snakemake.params.scale, settings)
-        fitted = {*published.objects} & {*settings.fitted_on}
+        grasps = labelled_grasps(os.environ, OWN_OBJECTS, snakemake.params.scale, settings)
+        fitted = {*grasps.objects} & {*settings.fitted_on}
         if len(fitted) < 2:
             message = f"has grasps of {len(fitted)} of the objects that grasp_types.fitted_on names"
             raise InputError(published_path(os.environ), "", f"{message}; 2 are needed")
-        log.info(evaluate_labels(published, settings, Path(out.table), Path(out.figure)))
-        log.info(validate_thresholds(published, settings, Path(out.validation)))
+        log.info(evaluate_labels(grasps, settings, Path(out.table), Path(out.figure)))
+        log.info(validate_thresholds(grasps, settings, Path(out.validation)))

@@ -11,15 +11,17 @@ import pandera.pandas as pa
 from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import minimize
 from scipy.special import expit
-from sklearn.metrics import cohen_kappa_score
+from sklearn.metrics import cohen_kappa_score, confusion_matrix
 
 from grasptypes.hand import configuration, kinematics
-from grasptypes.labels.contacts import DistanceField, find_contacts
+from grasptypes.hand.states import HandStates
+from grasptypes.labels.contacts import DistanceField
 from grasptypes.labels.grasp_type import (
-    GRASP_TYPES,
     INVALID,
+    TYPES,
     Measures,
     classify,
+    limits,
     measure,
     type_chances,
 )
@@ -28,9 +30,6 @@ from grasptypes.settings.grasp_types import ContactSettings, Softness, Threshold
 Array = NDArray[np.float64]
 
 ALL = "all"
-TYPES = GRASP_TYPES[: GRASP_TYPES.index(INVALID)]
-# In the order of `Measures`.
-THRESHOLDS = tuple(Thresholds.model_fields)
 
 AGREEMENT_SCHEMA = pa.DataFrameSchema(
     {
@@ -43,17 +42,12 @@ AGREEMENT_SCHEMA = pa.DataFrameSchema(
     strict=True,
     ordered=True,
 )
-THRESHOLD_SCHEMA = pa.DataFrameSchema(
-    {
-        **AGREEMENT_SCHEMA.columns,
-        **{name: pa.Column(float, pa.Check.gt(0)) for name in THRESHOLDS},
-    },
-    strict=True,
-    ordered=True,
+THRESHOLD_SCHEMA = AGREEMENT_SCHEMA.add_columns(
+    {name: pa.Column(float, pa.Check.gt(0)) for name in Thresholds.model_fields}
 )
 
 
-class PublishedMeasures(NamedTuple):
+class LabelledGrasps(NamedTuple):
     """Published grasps of n poses: human labels and measures."""
 
     objects: NDArray[np.str_]
@@ -63,15 +57,16 @@ class PublishedMeasures(NamedTuple):
     measures: Measures
     """Fields (n,)."""
 
-    def select(self, chosen: NDArray[np.bool_]) -> PublishedMeasures:
+    def select(self, chosen: NDArray[np.bool_]) -> LabelledGrasps:
         """The grasps where `chosen` (n,) holds."""
-        measures = Measures(*(values[chosen] for values in self.measures))
-        return PublishedMeasures(self.objects[chosen], self.labels[chosen], measures)
+        return LabelledGrasps(
+            self.objects[chosen], self.labels[chosen], self.measures.select(chosen)
+        )
 
 
 def measure_published(
     published: pd.DataFrame, fields: Mapping[str, DistanceField], settings: ContactSettings
-) -> PublishedMeasures:
+) -> LabelledGrasps:
     """Measure the published grasps with a human label and a configuration.
 
     Args:
@@ -81,24 +76,19 @@ def measure_published(
     """
     known = published.hand_configuration.notna() & (published.grasp_type != INVALID)
     chosen = published[known & published.object.isin(list(fields))]
-    parts = [
-        _measure(np.stack(rows.hand_configuration.tolist()), fields[str(name)], settings)
-        for name, rows in chosen.groupby("object", sort=True)
-    ]
+    parts = []
+    for name, rows in chosen.groupby("object", sort=True):
+        hand = configuration.unpack(np.stack(rows.hand_configuration.tolist()))
+        states = HandStates(hand.T_object_hand, kinematics.couple(hand.dofs_rad))
+        parts.append(np.stack(measure(fields[str(name)], states, settings)))
     ordered = chosen.sort_values("object", kind="stable")
     labels = np.array([TYPES.index(name) for name in ordered.grasp_type], dtype=np.int64)
-    columns = np.concatenate([np.stack(part) for part in parts], axis=1)
-    return PublishedMeasures(ordered.object.to_numpy(dtype=str), labels, Measures(*columns))
-
-
-def _measure(numbers: Array, field: DistanceField, settings: ContactSettings) -> Measures:
-    hand = configuration.unpack(numbers)
-    joint_angles = kinematics.couple(hand.dofs_rad)
-    return measure(find_contacts(field, hand.T_object_hand, joint_angles, settings), joint_angles)
+    measures = Measures(*np.concatenate(parts, axis=1))
+    return LabelledGrasps(ordered.object.to_numpy(dtype=str), labels, measures)
 
 
 def agreement(
-    published: PublishedMeasures, predicted: NDArray[np.int64], fitted_on: ArrayLike
+    grasps: LabelledGrasps, predicted: NDArray[np.int64], fitted_on: ArrayLike
 ) -> pd.DataFrame:
     """One row per object and one for all objects.
 
@@ -112,19 +102,16 @@ def agreement(
     """
     fitted_on = np.asarray(fitted_on, dtype=str)
     rows = [
-        _row(str(name), published.labels[own], predicted[own], fitted_on[own])
-        for name in np.unique(published.objects)
-        for own in [published.objects == name]
+        _row(str(name), grasps.labels[own], predicted[own], fitted_on[own])
+        for name in np.unique(grasps.objects)
+        for own in [grasps.objects == name]
     ]
-    rows.append(_row(ALL, published.labels, predicted, fitted_on))
+    rows.append(_row(ALL, grasps.labels, predicted, fitted_on))
     return pd.DataFrame(rows, columns=list(AGREEMENT_SCHEMA.columns))
 
 
 def _row(
-    name: str,
-    labels: NDArray[np.int64],
-    predicted: NDArray[np.int64],
-    fitted_on: NDArray[np.str_],
+    name: str, labels: NDArray[np.int64], predicted: NDArray[np.int64], fitted_on: NDArray[np.str_]
 ) -> dict[str, str | int | float]:
     alone = len(np.unique(np.concatenate([labels, predicted]))) == 1
     kappa = 1.0 if alone else float(cohen_kappa_score(labels, predicted))
@@ -145,54 +132,47 @@ def describe_fit(objects: Iterable[str], fitted_on: Iterable[str]) -> list[str]:
     return [own if name in seen else others for name in objects]
 
 
-def confusion(published: PublishedMeasures, predicted: NDArray[np.int64]) -> NDArray[np.int64]:
+def confusion(grasps: LabelledGrasps, predicted: NDArray[np.int64]) -> NDArray[np.int64]:
     """Counts (6, 6): rows are human labels, columns the rule's."""
-    counts = np.zeros((len(TYPES), len(TYPES)), dtype=np.int64)
-    np.add.at(counts, (published.labels, predicted), 1)
-    return counts
+    return confusion_matrix(grasps.labels, predicted, labels=np.arange(len(TYPES)))
 
 
-def fit_thresholds(published: PublishedMeasures, softness: Softness) -> Thresholds:
-    """Thresholds with the highest expected accuracy if branches are taken with logistic
-    probability.
+def fit_thresholds(grasps: LabelledGrasps, softness: Softness) -> Array:
+    """Thresholds (4,) with the highest expected accuracy if branches are taken with probability.
 
-    The probability depends on the logarithm of measure over threshold, divided by `softness`: a
-    smooth objective has one broad maximum, while plain accuracy has many narrow ones. The search
-    starts at the medians of the measures, so that the result depends only on these grasps.
+    It is logistic in the logarithm of measure over threshold, divided by `softness`: a smooth
+    objective has one broad maximum, while plain accuracy has many narrow ones. The search starts at
+    the medians of the measures, so that the result depends only on these grasps.
     """
-    measured = np.log(np.maximum(np.stack(published.measures), 1e-6))
-    widths = np.array([getattr(softness, name) for name in THRESHOLDS])[:, None]
-    rows = np.arange(len(published.labels))
+    measured = np.log(np.maximum(np.stack(grasps.measures), 1e-6))
+    widths = limits(softness)[:, None]
 
     def loss(log_thresholds: Array) -> float:
         """Negative mean probability of the human labels with soft thresholds (4,)."""
-        above = expit((measured - log_thresholds[:, None]) / widths)
-        chance = type_chances(dict(zip(Measures._fields, above, strict=True)))
-        return -float(chance[published.labels, rows].mean())
+        chance = type_chances(expit((measured - log_thresholds[:, None]) / widths))
+        return -float(chance[grasps.labels, np.arange(len(grasps.labels))].mean())
 
     options = {"maxiter": 600, "xatol": 1e-4, "fatol": 1e-7}
     start = np.median(measured, axis=1)
-    best = minimize(loss, start, method="Nelder-Mead", options=options)
-    return Thresholds(**dict(zip(THRESHOLDS, np.exp(best.x).tolist(), strict=True)))
+    return np.exp(minimize(loss, start, method="Nelder-Mead", options=options).x)
 
 
-def cross_validate(published: PublishedMeasures, softness: Softness) -> pd.DataFrame:
+def cross_validate(grasps: LabelledGrasps, softness: Softness) -> pd.DataFrame:
     """Label each object with thresholds fitted on all others.
 
     Returns:
         A table of `THRESHOLD_SCHEMA`: an object's row has the thresholds it was labelled with,
         the last row those fitted on all objects (its accuracy is that of all rows above together).
     """
-    predicted = np.empty(len(published.labels), dtype=np.int64)
-    names = np.unique(published.objects)
+    predicted = np.empty(len(grasps.labels), dtype=np.int64)
+    names = np.unique(grasps.objects)
     fitted = []
     for name in names:
-        own = published.objects == name
-        fitted.append(fit_thresholds(published.select(~own), softness))
-        predicted[own] = classify(published.select(own).measures, fitted[-1])
-    fitted.append(fit_thresholds(published, softness))
+        own = grasps.objects == name
+        fitted.append(fit_thresholds(grasps.select(~own), softness))
+        predicted[own] = classify(grasps.measures.select(own), fitted[-1])
+    fitted.append(fit_thresholds(grasps, softness))
     words = [f"{len(names) - 1} other objects"] * len(predicted)
-    table = agreement(published, predicted, words)
-    return pd.concat(
-        [table, pd.DataFrame([found.model_dump() for found in fitted]).round(5)], axis=1
-    )
+    table = agreement(grasps, predicted, words)
+    thresholds = pd.DataFrame(fitted, columns=list(Thresholds.model_fields)).round(5)
+    return pd.concat([table, thresholds], axis=1)

@@ -16,9 +16,11 @@ from typing import NamedTuple, Protocol
 
 import igl
 import numpy as np
+import trimesh
 from numpy.typing import ArrayLike, NDArray
 
 from grasptypes.hand import kinematics, shapes
+from grasptypes.hand.states import HandStates
 from grasptypes.settings.grasp_types import ContactSettings
 
 Array = NDArray[np.float64]
@@ -51,6 +53,12 @@ class MeshDistance:
 
     vertices_m: Array
     faces: NDArray[np.int64]
+
+    @classmethod
+    def of(cls, mesh: trimesh.Trimesh) -> MeshDistance:
+        """The distance to a mesh in metres."""
+        vertices = np.ascontiguousarray(mesh.vertices, dtype=np.float64)
+        return cls(vertices, np.ascontiguousarray(mesh.faces, dtype=np.int64))
 
     def distance_and_gradient(self, points_m: ArrayLike) -> tuple[Array, Array]:
         """Distances (...) in metres and unit directions (..., 3) out of the mesh.
@@ -89,21 +97,9 @@ class Contacts(NamedTuple):
     """(n, 9) how much a link counts as pushing, 0 to 1."""
 
 
-def find_contacts(
-    field: DistanceField,
-    T_object_hand: ArrayLike,
-    joint_angles_rad: ArrayLike,
-    settings: ContactSettings,
-) -> Contacts:
-    """Measure the contacts of hands posed at an object.
-
-    Args:
-        field: signed distance in the object's frame.
-        T_object_hand: (n, 4, 4) metres.
-        joint_angles_rad: (n, 8) in the order of `kinematics.JOINT_NAMES`.
-    """
-    T_object_hand = np.asarray(T_object_hand, dtype=np.float64)
-    T_hand_link = kinematics.link_poses(joint_angles_rad)
+def find_contacts(field: DistanceField, hands: HandStates, settings: ContactSettings) -> Contacts:
+    """Measure the contacts of n hands posed at an object whose signed distance is known."""
+    T_object_hand, T_hand_link = hands.T_object_hand, kinematics.link_poses(hands.joint_angles_rad)
     surface = shapes.surface_points(settings.surface_spacing_m)
     on_hand = _apply(T_hand_link[:, surface.link_index], surface.points_m)
     distance, outward = field.distance_and_gradient(_apply(T_object_hand[:, None], on_hand))

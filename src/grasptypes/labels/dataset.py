@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
@@ -11,8 +11,9 @@ import pandera.pandas as pa
 
 from grasptypes.exchange.published_csv import authors_columns
 from grasptypes.hand import configuration, kinematics
-from grasptypes.labels.contacts import DistanceField, find_contacts
-from grasptypes.labels.grasp_type import GRASP_TYPES, INVALID, explain, measure
+from grasptypes.hand.states import HandStates
+from grasptypes.labels.contacts import DistanceField
+from grasptypes.labels.grasp_type import GRASP_TYPES, INVALID, TYPES, explain, measure
 from grasptypes.labels.samples import COUNTS, samples_from_counts
 from grasptypes.settings.grasp_types import ContactSettings, Thresholds
 
@@ -39,7 +40,7 @@ DATASET_SCHEMA = pa.DataFrameSchema(
         "HandConfiguration": pa.Column(str, pa.Check(lambda cells: cells.str.count(",") == 16)),
         "Image": pa.Column(str),
         "reason": pa.Column(str, description="'valid', or why the grasp is invalid"),
-        "shape": pa.Column(str, pa.Check.isin(GRASP_TYPES[:-1]), description="type by the rule"),
+        "shape": pa.Column(str, pa.Check.isin(TYPES), description="type by the rule"),
         "branch": pa.Column(str, description="the way through the tree"),
         "margin": pa.Column(float, pa.Check.ge(0), description="to the nearest threshold"),
         "virtual_fingers": pa.Column(int, pa.Check.isin([2, 3])),
@@ -58,10 +59,7 @@ DATASET_SCHEMA = pa.DataFrameSchema(
 
 
 def label_grasps(
-    grasps: pd.DataFrame,
-    field: DistanceField,
-    contacts: ContactSettings,
-    thresholds: Thresholds,
+    grasps: pd.DataFrame, field: DistanceField, contacts: ContactSettings, thresholds: Thresholds
 ) -> pd.DataFrame:
     """Label the grasps of one object.
 
@@ -73,11 +71,9 @@ def label_grasps(
         `grasps` with the columns grasp_type (Invalid unless valid), shape (the type regardless of
         physics), branch, margin, virtual_fingers and the measures.
     """
-    joint_angles = np.stack(grasps.joint_angles_rad.tolist()).astype(np.float64)
     hand = configuration.unpack(np.stack(grasps.hand_configuration.tolist()))
-    measures = measure(
-        find_contacts(field, hand.T_object_hand, joint_angles, contacts), joint_angles
-    )
+    angles = np.stack(grasps.joint_angles_rad.tolist()).astype(np.float64)
+    measures = measure(field, HandStates(hand.T_object_hand, angles), contacts)
     labels = pd.DataFrame(explain(measures, thresholds), index=grasps.index)
     labels = labels.rename(columns={"grasp_type": "shape"})
     labels.insert(0, "grasp_type", labels["shape"].where(grasps.valid, INVALID))
@@ -131,8 +127,8 @@ def sample_table(dataset: pd.DataFrame, file: str | Path = "data/grasps.csv") ->
     Raises:
         InputError: an (object, task) without a valid grasp.
     """
-    types: Mapping[str, str] = dict(zip(GRASP_TYPES, COUNTS, strict=False))
-    counted = pd.crosstab([dataset.Object, dataset.Intent], dataset.GraspType.map(types))
+    columns = dict(zip(TYPES, COUNTS, strict=True))
+    counted = pd.crosstab([dataset.Object, dataset.Intent], dataset.GraspType.map(columns))
     counts = counted.reindex(columns=list(COUNTS), fill_value=0).reset_index()
     everything = dataset[["Object", "Intent"]].drop_duplicates()
     counts = everything.merge(counts, how="left").fillna(0)

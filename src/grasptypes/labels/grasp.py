@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import RigidTransform
 
 from grasptypes.hand import configuration
-from grasptypes.labels.contacts import find_contacts
+from grasptypes.hand.states import HandStates
 from grasptypes.labels.dataset import VALID
 from grasptypes.labels.grasp_type import Label, explain, measure
 from grasptypes.objects.object_geometry import ObjectGeometry
@@ -49,8 +49,8 @@ def grasps_of(table: pd.DataFrame, geometry: ObjectGeometry) -> list[Grasp]:
         Grasp(
             object=geometry,
             task=row.task,
-            T_object_hand=RigidTransform.from_matrix(
-                configuration.unpack(row.hand_configuration).T_object_hand
+            T_object_hand=RigidTransform(
+                configuration.unpack(row.hand_configuration).T_object_hand, normalize=False
             ),
             joint_angles_rad=np.array(row.joint_angles_rad, dtype=np.float64),
             grasp_type=row.grasp_type,
@@ -71,7 +71,6 @@ def label(grasp: Grasp, settings: GraspTypeSettings | None = None) -> Label:
         InputError: there are neither settings nor a params.yaml.
     """
     rule = settings or read_params("params.yaml").grasp_types
-    angles = grasp.joint_angles_rad[None]
-    pose = grasp.T_object_hand.as_matrix()[None]
-    contacts = find_contacts(grasp.object.distance_grid, pose, angles, rule.contacts)
-    return explain(measure(contacts, angles), rule.thresholds)[0]
+    hand = HandStates(grasp.T_object_hand.as_matrix()[None], grasp.joint_angles_rad[None])
+    measures = measure(grasp.object.distance_grid, hand, rule.contacts)
+    return explain(measures, rule.thresholds)[0]

@@ -14,7 +14,6 @@ See docs/grasp_types.md for the names of the types in other taxonomies.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from typing import NamedTuple
 
 import numpy as np
@@ -22,8 +21,16 @@ from numpy.typing import ArrayLike, NDArray
 
 from grasptypes.hand import kinematics
 from grasptypes.hand.parts import DISTAL_HUB_RADIUS_M
-from grasptypes.labels.contacts import DISTAL_LINKS, FINGER_LINKS, PALM, Contacts
-from grasptypes.settings.grasp_types import Thresholds
+from grasptypes.hand.states import HandStates
+from grasptypes.labels.contacts import (
+    DISTAL_LINKS,
+    FINGER_LINKS,
+    PALM,
+    Contacts,
+    DistanceField,
+    find_contacts,
+)
+from grasptypes.settings.grasp_types import ContactSettings, Softness, Thresholds
 
 Array = NDArray[np.float64]
 
@@ -31,62 +38,9 @@ LARGE_WRAP, MEDIUM_WRAP, SMALL_WRAP = "Large Wrap", "Medium Wrap", "Small Wrap"
 POWER_SPHERE, PRECISION_SPHERE, PRECISION = "Power Sphere", "Precision Sphere", "Precision"
 INVALID = "Invalid"
 # Spelled and ordered as in the published table, where GraspTypeIndex starts at 1.
-GRASP_TYPES = (
-    LARGE_WRAP,
-    MEDIUM_WRAP,
-    SMALL_WRAP,
-    POWER_SPHERE,
-    PRECISION_SPHERE,
-    PRECISION,
-    INVALID,
-)
-
-
-class Branch(NamedTuple):
-    """A question of the tree: is a measure above its threshold?"""
-
-    measure: str
-    """A field of `Measures`."""
-    threshold: str
-    """A field of `Thresholds`."""
-    name: str
-    below: Branch | str
-    """What follows if it is not: another question or a grasp type."""
-    above: Branch | str
-
-
-_SPHERE_OR_WRAP = Branch(
-    "sideways_share",
-    "sideways_share",
-    "sideways share",
-    below=Branch("span_m", "large_span_m", "fingertip span", MEDIUM_WRAP, LARGE_WRAP),
-    above=POWER_SPHERE,
-)
-TREE = Branch(
-    "palm_gap_m",
-    "palm_gap_m",
-    "palm gap",
-    below=Branch(
-        "enclosed_diameter_m",
-        "small_diameter_m",
-        "enclosed diameter",
-        below=SMALL_WRAP,
-        above=_SPHERE_OR_WRAP,
-    ),
-    above=Branch("sideways_share", "sideways_share", "sideways share", PRECISION, PRECISION_SPHERE),
-)
-
-
-def virtual_fingers(grasp_type: str) -> int:
-    """Number of virtual fingers of a grasp type: three for spheres, otherwise two."""
-    return 3 if grasp_type in (POWER_SPHERE, PRECISION_SPHERE) else 2
-
-
-def leaves(branch: Branch | str = TREE) -> list[str]:
-    """The grasp types below a branch, from left to right."""
-    if isinstance(branch, str):
-        return [branch]
-    return leaves(branch.below) + leaves(branch.above)
+TYPES = (LARGE_WRAP, MEDIUM_WRAP, SMALL_WRAP, POWER_SPHERE, PRECISION_SPHERE, PRECISION)
+GRASP_TYPES = (*TYPES, INVALID)
+SPHERES = (POWER_SPHERE, PRECISION_SPHERE)
 
 
 class Measures(NamedTuple):
@@ -96,6 +50,56 @@ class Measures(NamedTuple):
     enclosed_diameter_m: Array
     sideways_share: Array
     span_m: Array
+
+    def select(self, chosen: NDArray[np.bool_]) -> Measures:
+        """The grasps where `chosen` (n,) holds."""
+        return Measures(*(values[chosen] for values in self))
+
+
+class Question(NamedTuple):
+    """Is a measure above its threshold? `below` and `above` are what follows."""
+
+    measure: int
+    """Index into `Measures` and `Thresholds`."""
+    name: str
+    below: Question | str
+    above: Question | str
+
+    def amount(self, value: float) -> str:
+        """A value of the measure with its unit."""
+        return f"{value:.3f}" if self.name.endswith("share") else f"{value * 1e3:.1f} mm"
+
+
+TREE = Question(
+    0,
+    "palm gap",
+    below=Question(
+        1,
+        "enclosed diameter",
+        below=SMALL_WRAP,
+        above=Question(
+            2,
+            "sideways share",
+            below=Question(3, "fingertip span", below=MEDIUM_WRAP, above=LARGE_WRAP),
+            above=POWER_SPHERE,
+        ),
+    ),
+    above=Question(2, "sideways share", below=PRECISION, above=PRECISION_SPHERE),
+)
+
+
+def ways(node: Question | str = TREE) -> dict[str, list[tuple[Question, bool]]]:
+    """The questions on the way to each type from left to right, and whether it lies above."""
+    if isinstance(node, str):
+        return {node: []}
+    return {
+        name: [(node, above), *way]
+        for above, child in ((False, node.below), (True, node.above))
+        for name, way in ways(child).items()
+    }
+
+
+WAYS = ways()
 
 
 class Label(NamedTuple):
@@ -109,16 +113,12 @@ class Label(NamedTuple):
     """Distance to the nearest threshold on the path, as a share of that threshold."""
 
 
-def measure(contacts: Contacts, joint_angles_rad: ArrayLike) -> Measures:
-    """Measure n grasps.
-
-    Args:
-        contacts: of n poses.
-        joint_angles_rad: (n, 8) in the order of `kinematics.JOINT_NAMES`.
-    """
+def measure(field: DistanceField, hands: HandStates, settings: ContactSettings) -> Measures:
+    """Measure n grasps of an object whose signed distance is known."""
+    contacts = find_contacts(field, hands, settings)
     return Measures(
         contacts.gap_m[:, PALM],
-        np.median(enclosed_diameters(joint_angles_rad), axis=1),
+        np.median(enclosed_diameters(hands.joint_angles_rad), axis=1),
         sideways_share(contacts),
         fingertip_span(contacts),
     )
@@ -161,67 +161,53 @@ def fingertip_span(contacts: Contacts) -> Array:
     return np.maximum(*spans)
 
 
-def type_chances(above: Mapping[str, Array]) -> Array:
-    """Probabilities (6, n) of the first six `GRASP_TYPES` for n grasps.
+def limits(settings: Thresholds | Softness) -> Array:
+    """The four numbers (4,) of the settings, in the order of `Measures`."""
+    return np.array([value for _, value in settings])
+
+
+def type_chances(above: Array) -> Array:
+    """Probabilities (6, n) of `TYPES` for n grasps.
 
     Args:
-        above: by measure, the probability (n,) that it is above its threshold; 0 or 1 if known.
+        above: (4, n) in the order of `Measures`, the probability that each is above its threshold;
+            0 or 1 if known.
     """
-    chances: dict[str, Array] = {}
-
-    def follow(branch: Branch | str, chance: Array | float) -> None:
-        """Distribute a probability over the leaves below a branch."""
-        if isinstance(branch, str):
-            chances[branch] = np.asarray(chance)
-            return
-        follow(branch.below, chance * (1 - above[branch.measure]))
-        follow(branch.above, chance * above[branch.measure])
-
-    follow(TREE, 1.0)
-    return np.stack([chances[name] for name in GRASP_TYPES[:-1]])
+    chances = []
+    for name in TYPES:
+        chance = np.ones(above.shape[1])
+        for question, is_above in WAYS[name]:
+            chance = chance * (above[question.measure] if is_above else 1 - above[question.measure])
+        chances.append(chance)
+    return np.stack(chances)
 
 
-def classify(measures: Measures, thresholds: Thresholds) -> NDArray[np.int64]:
-    """Apply the tree: indices (n,) into `GRASP_TYPES`, 0 to 5."""
-    limits = measure_limits(thresholds)
-    above = {
-        name: (values > limits[name]).astype(np.float64)
-        for name, values in measures._asdict().items()
-    }
-    return type_chances(above).argmax(axis=0)
-
-
-def measure_limits(thresholds: Thresholds, branch: Branch | str = TREE) -> dict[str, float]:
-    """The threshold of each of `Measures` at and below a branch."""
-    if isinstance(branch, str):
-        return {}
-    below = measure_limits(thresholds, branch.below) | measure_limits(thresholds, branch.above)
-    return {branch.measure: getattr(thresholds, branch.threshold)} | below
+def classify(measures: Measures, thresholds: ArrayLike) -> NDArray[np.int64]:
+    """Indices (n,) into `TYPES` of n grasps, with thresholds (4,) in the order of `Measures`."""
+    above = np.stack(measures) > np.asarray(thresholds)[:, None]
+    return type_chances(above.astype(np.float64)).argmax(axis=0)
 
 
 def explain(measures: Measures, thresholds: Thresholds) -> list[Label]:
     """The labels of n grasps, each with its path through the tree."""
-    columns = {name: values.tolist() for name, values in measures._asdict().items()}
-    rows = zip(*columns.values(), strict=True)
-    return [_explain(dict(zip(columns, row, strict=True)), thresholds) for row in rows]
+    at = limits(thresholds).tolist()
+    measured = np.stack(measures, axis=1).tolist()
+    types = classify(measures, at).tolist()
+    return [_label(TYPES[index], values, at) for index, values in zip(types, measured, strict=True)]
 
 
-def _explain(measured: Mapping[str, float], thresholds: Thresholds) -> Label:
-    """The label of one grasp."""
-    branch: Branch | str = TREE
+def _label(grasp_type: str, measured: list[float], thresholds: list[float]) -> Label:
+    (_, precision), *_ = way = WAYS[grasp_type]
     steps, margins = [], []
-    while isinstance(branch, Branch):
-        value, limit = measured[branch.measure], getattr(thresholds, branch.threshold)
-        sign = ">" if value > limit else "<="
-        amounts = amount(branch.measure, value), amount(branch.measure, limit)
-        steps.append(f"{branch.name} {amounts[0]} {sign} {amounts[1]}")
+    for question, above in way:
+        value, limit = measured[question.measure], thresholds[question.measure]
+        sign = ">" if above else "<="
+        steps.append(f"{question.name} {question.amount(value)} {sign} {question.amount(limit)}")
         margins.append(abs(value - limit) / limit)
-        branch = branch.above if value > limit else branch.below
-    kind = "power" if branch in leaves(TREE.below) else "precision"
-    way = f"{kind}: " + ", ".join(steps)
-    return Label(branch, virtual_fingers(branch), way, float(min(margins)))
+    branch = f"{'precision' if precision else 'power'}: {', '.join(steps)}"
+    return Label(grasp_type, virtual_fingers(grasp_type), branch, min(margins))
 
 
-def amount(measure: str, value: float) -> str:
-    """A value of one of `Measures` as text, with its unit."""
-    return f"{value:.3f}" if measure.endswith("share") else f"{value * 1e3:.1f} mm"
+def virtual_fingers(grasp_type: str) -> int:
+    """Number of virtual fingers of a grasp type: three for spheres, otherwise two."""
+    return 3 if grasp_type in SPHERES else 2

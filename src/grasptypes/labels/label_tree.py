@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -11,7 +13,7 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from grasptypes.labels.dataset import VALID
-from grasptypes.labels.grasp_type import TREE, Branch, amount, leaves, virtual_fingers
+from grasptypes.labels.grasp_type import TREE, WAYS, Question, limits, virtual_fingers, ways
 from grasptypes.settings.grasp_types import Thresholds
 
 Picture = NDArray[np.uint8]
@@ -19,6 +21,8 @@ Picture = NDArray[np.uint8]
 # Layout in units of leaf spacing and question spacing: half the height of a question's box, top of
 # the leaves, and half the width of the text at a branch.
 HALF, LEAF_TOP, WORDS = 0.19, -3.85, 0.28
+BOX = {"boxstyle": "round", "facecolor": "#eef2f5", "edgecolor": "#5f6b73"}
+BARE = {"facecolor": "white", "edgecolor": "none", "pad": 1.0}
 
 
 def typical_grasps(dataset: pd.DataFrame) -> dict[str, pd.Series]:
@@ -48,12 +52,13 @@ def draw_label_tree(
     figure = Figure(figsize=(10.5, 6.6), layout="constrained")
     axes = figure.add_subplot()
     axes.set_axis_off()
-    axes.set_xlim(-0.55, len(leaves()) - 0.45)
+    axes.set_xlim(-0.55, len(WAYS) - 0.45)
     axes.set_ylim(-5.75, 0.3)
-    places = {name: float(place) for place, name in enumerate(leaves())}
-    _draw(axes, TREE, 0.0, places, counts, thresholds)
+    places = {name: float(place) for place, name in enumerate(WAYS)}
+    drawing = _Drawing(axes, places, counts, limits(thresholds).tolist())
+    drawing.question(TREE, 0.0)
     for name, place in places.items():
-        _leaf(axes, name, place, counts)
+        drawing.leaf(name)
         if name in pictures:
             inset = axes.inset_axes((place - 0.47, -5.7, 0.94, 1.25), transform=axes.transData)
             inset.imshow(pictures[name])
@@ -64,37 +69,40 @@ def draw_label_tree(
     return figure
 
 
-def _draw(
-    axes: Axes,
-    branch: Branch,
-    depth: float,
-    places: Mapping[str, float],
-    counts: Mapping[str, int],
-    thresholds: Thresholds,
-) -> float:
-    """Draw a branch and everything below it; returns its horizontal position."""
-    place, bottom = float(np.mean([places[name] for name in leaves(branch)])), -depth - HALF
-    limit = amount(branch.measure, getattr(thresholds, branch.threshold))
-    for child, words in ((branch.below, f"≤ {limit}"), (branch.above, f"> {limit}")):
-        if isinstance(child, str):
-            end = places[child], LEAF_TOP
-        else:
-            end = _draw(axes, child, depth + 1, places, counts, thresholds), -depth - 1 + HALF
-        axes.plot([place, end[0]], [bottom, end[1]], color="#9a9a9a", zorder=0)
-        # Low enough that the texts of the two branches are side by side.
-        down = max(0.3, WORDS / max(abs(end[0] - place), WORDS))
-        at = place + down * (end[0] - place), bottom + down * (end[1] - bottom)
-        axes.text(*at, words, ha="center", va="center", fontsize="small", bbox=_BARE)
-    number = sum(counts.get(name, 0) for name in leaves(branch))
-    text = f"{branch.name}\n{number} grasps"
-    axes.text(place, -depth, text, ha="center", va="center", fontsize="small", bbox=_BOX)
-    return place
+@dataclass(frozen=True)
+class _Drawing:
+    """Where the leaves stand from left to right, their grasps, and the thresholds (4,)."""
 
+    axes: Axes
+    places: Mapping[str, float]
+    counts: Mapping[str, int]
+    thresholds: Sequence[float]
 
-_BOX = {"boxstyle": "round", "facecolor": "#eef2f5", "edgecolor": "#5f6b73"}
-_BARE = {"facecolor": "white", "edgecolor": "none", "pad": 1.0}
+    def question(self, question: Question, depth: float) -> float:
+        """Draw a question and all below it; returns where it stands from left to right."""
+        names = ways(question)
+        place, bottom = float(np.mean([self.places[name] for name in names])), -depth - HALF
+        limit = question.amount(self.thresholds[question.measure])
+        for child, words in ((question.below, f"≤ {limit}"), (question.above, f"> {limit}")):
+            if isinstance(child, str):
+                end = self.places[child], LEAF_TOP
+            else:
+                end = self.question(child, depth + 1), -depth - 1 + HALF
+            self.axes.plot([place, end[0]], [bottom, end[1]], color="#9a9a9a", zorder=0)
+            # Far enough down that the words of the two branches stand beside each other.
+            down = max(0.3, WORDS / max(abs(end[0] - place), WORDS))
+            self._write(
+                place + down * (end[0] - place), bottom + down * (end[1] - bottom), words, BARE
+            )
+        number = sum(self.counts.get(name, 0) for name in names)
+        self._write(place, -depth, f"{question.name}\n{number} grasps", BOX)
+        return place
 
+    def leaf(self, name: str) -> None:
+        """Draw a type with its number of grasps."""
+        fingers = f"{virtual_fingers(name)} virtual fingers"
+        text = f"{name}\n{self.counts.get(name, 0)} grasps\n{fingers}"
+        self._write(self.places[name], -4.12, text, BOX)
 
-def _leaf(axes: Axes, name: str, place: float, counts: Mapping[str, int]) -> None:
-    text = f"{name}\n{counts.get(name, 0)} grasps\n{virtual_fingers(name)} virtual fingers"
-    axes.text(place, -4.12, text, ha="center", va="center", fontsize="small", bbox=_BOX)
+    def _write(self, x: float, y: float, text: str, box: dict[str, Any]) -> None:
+        self.axes.text(x, y, text, ha="center", va="center", fontsize="small", bbox=box)

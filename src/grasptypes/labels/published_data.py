@@ -5,13 +5,18 @@ from __future__ import annotations
 from collections.abc import Mapping
 from pathlib import Path
 
+import numpy as np
+import trimesh
+
 from grasptypes.errors import InputError
-from grasptypes.labels.agreement import PublishedMeasures, measure_published
+from grasptypes.labels.agreement import LabelledGrasps, measure_published
+from grasptypes.labels.contacts import MeshDistance
 from grasptypes.labels.published import read_published
-from grasptypes.labels.published_objects import object_distances
 from grasptypes.labels.published_source import PUBLISHED, published_path
+from grasptypes.labels.replay import read_reference_mesh
+from grasptypes.objects.object_files import SURFACE, read_surface
 from grasptypes.objects.reference_meshes import REFERENCES
-from grasptypes.settings.grasp_types import GraspTypeSettings
+from grasptypes.settings.grasp_types import GraspTypeSettings, ModelFrame
 
 SOURCES = {
     PUBLISHED: "get GraspTypesWithTasks.csv from github.com/nikleer/GraspTypesWithTasks, or give "
@@ -33,21 +38,45 @@ def lacking_data(environment: Mapping[str, str]) -> str:
     )
 
 
-def read_measures(
+def labelled_grasps(
     environment: Mapping[str, str], own: str | Path, scale: float, settings: GraspTypeSettings
-) -> PublishedMeasures:
-    """Measure all published poses that have a type, a configuration and an object mesh.
+) -> LabelledGrasps:
+    """Measure all published poses that have a type, a configuration and an object.
 
     Args:
         environment: names the published table, by path or URL, and the folder of reference meshes.
-        own: folder of prepared objects, for those without a reference mesh.
-        scale: scale of the reference meshes.
+        own: folder of the objects prepared here, for those without a reference mesh.
+        scale: of the reference meshes.
+
+    Raises:
+        InputError: the table cannot be read or has no configuration, or a mesh cannot be read.
     """
     path = published_path(environment)
     published = read_published(path)
     if published.hand_configuration.isna().all():
         raise InputError(path, "", "has no grasp with a hand configuration")
-    names = sorted(published.object.unique())
-    references = environment[REFERENCES]
-    fields = object_distances(names, references, own, scale, settings.own_frames)
+    fields = {}
+    for name in sorted(published.object.unique()):
+        scan, prepared = Path(environment[REFERENCES]) / f"{name}.stl", Path(own) / name / SURFACE
+        if scan.exists():
+            fields[name] = MeshDistance.of(read_reference_mesh(scan, scale))
+        elif prepared.exists():
+            fields[name] = MeshDistance.of(own_mesh(prepared, settings.own_frames.get(name)))
     return measure_published(published, fields, settings.contacts)
+
+
+def own_mesh(path: str | Path, frame: ModelFrame | None) -> trimesh.Trimesh:
+    """Our own model, metres, placed on the ground with its centre above the origin.
+
+    Args:
+        path: surface file.
+        frame: optional `rotation` before and `shift_m` after placing it there.
+    """
+    surface = read_surface(path)
+    vertices = surface.vertices
+    if frame:
+        vertices = vertices @ np.asarray(frame.rotation, dtype=np.float64).T
+    lower, upper = vertices.min(axis=0), vertices.max(axis=0)
+    ground = np.array([*((lower + upper) / 2.0)[:2], lower[2]])
+    shift = np.asarray(frame.shift_m if frame else np.zeros(3), dtype=np.float64)
+    return trimesh.Trimesh(vertices - ground + shift, surface.faces, process=False)

@@ -22,6 +22,7 @@ from numpy.typing import NDArray
 
 from grasptypes.errors import InputError, parsing
 from grasptypes.hand import configuration, kinematics, shapes
+from grasptypes.hand.states import HandStates
 from grasptypes.objects.distance_grid import signed_distance
 from grasptypes.settings.grasp_types import ReplaySettings
 
@@ -89,8 +90,7 @@ def fit_hands(configurations: Array, mesh: trimesh.Trimesh, spacing_m: float) ->
     Fingertips are assumed to be coupled to their finger bases, since the poses contain no more.
     """
     hand = configuration.unpack(configurations)
-    poses = kinematics.link_poses(kinematics.couple(hand.dofs_rad))
-    T_object_link = hand.T_object_hand[:, None] @ poses
+    T_object_link = HandStates(hand.T_object_hand, kinematics.couple(hand.dofs_rad)).link_poses()
     surface = shapes.surface_points(spacing_m)
     T_object_point = T_object_link[:, surface.link_index]
     points = np.einsum("npij,pj->npi", T_object_point[..., :3, :3], surface.points_m)
@@ -144,5 +144,4 @@ def replay(
             mesh = read_reference_mesh(meshes[name], settings.object_scale)
             numbers = np.stack(poses.hand_configuration.tolist())
             rows.append(replay_object(str(name), numbers, mesh, settings))
-    columns = list(REPLAY_SCHEMA.columns)
-    return pd.DataFrame(rows, columns=columns)
+    return pd.DataFrame(rows, columns=list(REPLAY_SCHEMA.columns))

@@ -8,11 +8,11 @@ this hand is not a human one and may hold the same place better from another sid
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from grasptypes.hand.states import HandStates
 from grasptypes.settings.synthesis import CandidateSettings
 from grasptypes.synthesis.closing import close_fingers, slide_in
 from grasptypes.synthesis.scene import GraspScene
@@ -40,19 +40,6 @@ class Demonstration:
     approach: Array
     closing: Array
     centre_m: Array
-
-
-class HandStates(NamedTuple):
-    """Hands in the object frame."""
-
-    T_object_hand: Array
-    """(n, 4, 4)."""
-    joint_angles_rad: Array
-    """(n, 8) in the order of `kinematics.JOINT_NAMES`."""
-
-    def take(self, index: NDArray[Any]) -> HandStates:
-        """The hands of an index or mask."""
-        return HandStates(self.T_object_hand[index], self.joint_angles_rad[index])
 
 
 def draw_candidates(

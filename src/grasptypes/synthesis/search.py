@@ -9,13 +9,14 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from grasptypes.hand import kinematics
+from grasptypes.hand.states import HandStates
 from grasptypes.settings.synthesis import (
     RankingSettings,
     RefinementSettings,
     ShapeRanges,
     SynthesisSettings,
 )
-from grasptypes.synthesis.candidates import Demonstration, HandStates, draw_candidates
+from grasptypes.synthesis.candidates import Demonstration, draw_candidates
 from grasptypes.synthesis.closing import close_fingers
 from grasptypes.synthesis.energy import (
     TERMS,
@@ -66,7 +67,7 @@ class CostFunction(NamedTuple):
         A grasp must not be ranked if it penetrates or touches with too few fingers.
         """
         scene, settings = self.scene, self.settings
-        poses = hands.T_object_hand[:, None] @ kinematics.link_poses(hands.joint_angles_rad)
+        poses = hands.link_poses()
         close = closeness(scene, poses)
         touching = close.gaps_m <= settings.ranking.contact_m
         fingers = touching[:, FIRST_PROXIMAL:FIRST_DISTAL] | touching[:, FIRST_DISTAL:]

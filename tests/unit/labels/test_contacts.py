@@ -3,8 +3,10 @@
 import numpy as np
 import pytest
 import trimesh
+from tests.unit.labels.cases import CONTACTS, Ball
 
 from grasptypes.hand import kinematics, shapes
+from grasptypes.hand.states import HandStates
 from grasptypes.labels.contacts import (
     DISTAL_LINKS,
     FINGER_LINKS,
@@ -15,24 +17,9 @@ from grasptypes.labels.contacts import (
     unit,
 )
 from grasptypes.objects.distance_grid import DistanceGrid
-from grasptypes.settings.grasp_types import ContactSettings
 
 UPRIGHT = np.eye(3)
-SETTINGS = ContactSettings(
-    surface_spacing_m=0.006, patch_depth_m=0.002, reach_m=0.025, closing_weight=3.0
-)
-
-
-class Ball:
-    """Signed distance to a sphere about a point of the object frame."""
-
-    def __init__(self, centre, radius):
-        self.centre, self.radius = np.asarray(centre), radius
-
-    def distance_and_gradient(self, points):
-        offset = np.asarray(points) - self.centre
-        length = np.linalg.norm(offset, axis=-1)
-        return length - self.radius, offset / length[..., None]
+SETTINGS = CONTACTS.model_copy(update={"surface_spacing_m": 0.006})
 
 
 def pose(shift=(0.0, 0.0, 0.0), turn=UPRIGHT):
@@ -45,8 +32,12 @@ def closed(spread=0.0, fingers=60.0):
     return kinematics.couple(np.radians([[spread, fingers, fingers, fingers]]))
 
 
+def hands(T_object_hand, spread=0.0, fingers=60.0):
+    return HandStates(T_object_hand[None], closed(spread, fingers))
+
+
 def test_palm_gap_is_the_distance_to_the_palm_plate():
-    contacts = find_contacts(Ball([0, 0, 0.06], 0.04), pose()[None], closed(), SETTINGS)
+    contacts = find_contacts(Ball(0.04, [0, 0, 0.06]), hands(pose()), SETTINGS)
     assert contacts.gap_m[0, PALM] == pytest.approx(0.02, abs=5e-4)
     np.testing.assert_allclose(contacts.normal[0, PALM], [0, 0, -1], atol=0.05)
 
@@ -55,27 +46,25 @@ def test_contacts_do_not_depend_on_where_the_object_frame_is():
     turn = np.array([[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])
     shift = np.array([0.3, -0.2, 0.1])
     centre = np.array([0.01, 0.0, 0.07])
-    here = find_contacts(Ball(centre, 0.05), pose()[None], closed(20), SETTINGS)
-    there = find_contacts(
-        Ball(turn @ centre + shift, 0.05), pose(shift, turn)[None], closed(20), SETTINGS
-    )
+    here = find_contacts(Ball(0.05, centre), hands(pose(), 20), SETTINGS)
+    there = find_contacts(Ball(0.05, turn @ centre + shift), hands(pose(shift, turn), 20), SETTINGS)
     for first, second in zip(here, there, strict=True):
         np.testing.assert_allclose(first, second, atol=1e-12)
 
 
 def test_a_ball_is_pushed_from_both_sides_along_y_at_spread_zero():
-    contacts = find_contacts(Ball([0, 0, 0.09], 0.05), pose()[None], closed(), SETTINGS)
+    contacts = find_contacts(Ball(0.05, [0, 0, 0.09]), hands(pose()), SETTINGS)
     first, _, third = contacts.push[0, list(DISTAL_LINKS), 1]
     assert first < -0.5
     assert third > 0.5
 
 
 def test_weight_falls_from_one_at_touch_to_zero_at_the_reach():
-    contacts = find_contacts(Ball([0, 0, 0.09], 0.02), pose()[None], closed(0, 30), SETTINGS)
+    contacts = find_contacts(Ball(0.02, [0, 0, 0.09]), hands(pose(), 0, 30), SETTINGS)
     expected = np.clip(1 - contacts.gap_m / SETTINGS.reach_m, 0, 1)
     np.testing.assert_allclose(contacts.weight, expected)
     assert contacts.weight.min() == 0.0
-    deep = find_contacts(Ball([0, 0, 0.0], 0.05), pose()[None], closed(0, 30), SETTINGS)
+    deep = find_contacts(Ball(0.05, [0, 0, 0.0]), hands(pose(), 0, 30), SETTINGS)
     assert deep.weight[0, PALM] == 1.0
 
 
@@ -104,7 +93,7 @@ def test_mesh_and_grid_tell_the_same_contacts():
     box.apply_translation([0, 0, 0.075])
     vertices, faces = np.array(box.vertices), np.array(box.faces, dtype=np.int64)
     fields = MeshDistance(vertices, faces), DistanceGrid.from_mesh(vertices, faces, 0.003, 0.03)
-    exact, sampled = (find_contacts(f, pose()[None], closed(), SETTINGS) for f in fields)
+    exact, sampled = (find_contacts(f, hands(pose()), SETTINGS) for f in fields)
     np.testing.assert_allclose(exact.gap_m[0, [PALM]], sampled.gap_m[0, [PALM]], atol=1e-3)
     near = exact.weight > 0.2
     assert near.sum() >= 3
@@ -160,7 +149,7 @@ def test_contacts_are_the_weighted_means_of_the_points_near_each_link():
     centre, radius = np.array([0.02, -0.01, 0.1]), 0.045
     T = np.stack([pose(), pose([0.005, 0.01, -0.02])])
     angles = np.concatenate([closed(10, 50), closed(30, 70)])
-    found = find_contacts(Ball(centre, radius), T, angles, SETTINGS)
+    found = find_contacts(Ball(radius, centre), HandStates(T, angles), SETTINGS)
     surface = shapes.surface_points(SETTINGS.surface_spacing_m)
     for n, T_object_hand in enumerate(T):
         T_hand_link = kinematics.link_poses(angles[n])

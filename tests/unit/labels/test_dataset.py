@@ -3,28 +3,13 @@
 import numpy as np
 import pandas as pd
 import pytest
+from tests.unit.labels.cases import CONTACTS, THRESHOLDS, Ball
 
 from grasptypes.errors import InputError
 from grasptypes.hand import configuration, kinematics
 from grasptypes.labels.dataset import DATASET_SCHEMA, dataset_table, label_grasps, sample_table
 from grasptypes.labels.published import read_published
 from grasptypes.labels.samples import SAMPLE_SCHEMA
-from grasptypes.settings.grasp_types import ContactSettings, Thresholds
-
-CONTACTS = ContactSettings(
-    surface_spacing_m=0.008, patch_depth_m=0.002, reach_m=0.025, closing_weight=3.0
-)
-THRESHOLDS = Thresholds(
-    palm_gap_m=0.019, small_diameter_m=0.047, sideways_share=0.052, large_span_m=0.083
-)
-
-
-class Ball:
-    """A sphere of 40 mm radius at the object's origin."""
-
-    def distance_and_gradient(self, points):
-        length = np.linalg.norm(points, axis=-1)
-        return length - 0.04, points / length[..., None]
 
 
 def grasps(valid=(True, True, False), name="ball"):
@@ -50,7 +35,7 @@ def grasps(valid=(True, True, False), name="ball"):
 
 
 def made(**changes):
-    return dataset_table([label_grasps(grasps(**changes), Ball(), CONTACTS, THRESHOLDS)])
+    return dataset_table([label_grasps(grasps(**changes), Ball(0.04), CONTACTS, THRESHOLDS)])
 
 
 def test_every_row_is_complete_and_meets_the_schema():

@@ -2,25 +2,26 @@
 
 import numpy as np
 import pytest
+from scipy.spatial.transform import RigidTransform
+from tests.unit.labels.cases import CONTACTS, THRESHOLDS, Ball
+from tests.unit.settings import PARAMS
 
 from grasptypes.hand import kinematics
-from grasptypes.labels.contacts import DISTAL_LINKS, FINGER_LINKS, PALM, Contacts
+from grasptypes.hand.states import HandStates
+from grasptypes.labels.contacts import DISTAL_LINKS, FINGER_LINKS, PALM, Contacts, find_contacts
+from grasptypes.labels.grasp import Grasp, label
 from grasptypes.labels.grasp_type import (
-    GRASP_TYPES,
+    TYPES,
     Measures,
     classify,
     enclosed_diameters,
     explain,
     fingertip_span,
+    limits,
     measure,
-    measure_limits,
     sideways_share,
 )
-from grasptypes.settings.grasp_types import Thresholds
 
-THRESHOLDS = Thresholds(
-    palm_gap_m=0.020, small_diameter_m=0.050, sideways_share=0.05, large_span_m=0.080
-)
 # A wide medium wrap: every other type is one change away.
 WRAP = {
     "palm_gap_m": 0.0,
@@ -30,11 +31,10 @@ WRAP = {
 }
 
 
-def label(**changes):
-    values = {**WRAP, **changes}
-    return explain(Measures(*(np.array([values[name]]) for name in Measures._fields)), THRESHOLDS)[
-        0
-    ]
+def labelled(**changes):
+    measures = Measures(*(np.array([value]) for value in (WRAP | changes).values()))
+    (found,) = explain(measures, THRESHOLDS)
+    return found
 
 
 @pytest.mark.parametrize(
@@ -57,17 +57,17 @@ def label(**changes):
     ],
 )
 def test_branch(changes, expected):
-    assert label(**changes).grasp_type == expected
+    found = labelled(**changes)
+    assert found.grasp_type == expected
+    assert found.virtual_fingers == (3 if expected.endswith("Sphere") else 2)
 
 
 def test_classify_agrees_with_explain():
     draw = np.random.default_rng(0)
-    measures = Measures(
-        *(draw.uniform(0, 2, 300) * limit for limit in measure_limits(THRESHOLDS).values())
-    )
-    names = [GRASP_TYPES[index] for index in classify(measures, THRESHOLDS)]
+    measures = Measures(*(draw.uniform(0, 2, (4, 300)) * limits(THRESHOLDS)[:, None]))
+    names = [TYPES[index] for index in classify(measures, limits(THRESHOLDS))]
     assert names == [one.grasp_type for one in explain(measures, THRESHOLDS)]
-    assert set(names) == set(GRASP_TYPES[:-1])
+    assert set(names) == set(TYPES)
 
 
 @pytest.mark.parametrize(
@@ -103,7 +103,7 @@ def test_classify_agrees_with_explain():
     ],
 )
 def test_explanation_names_the_decisions_taken_and_no_others(changes, branch):
-    assert label(**changes).branch == branch
+    assert labelled(**changes).branch == branch
 
 
 @pytest.mark.parametrize(
@@ -125,22 +125,7 @@ def test_explanation_names_the_decisions_taken_and_no_others(changes, branch):
     ],
 )
 def test_margin_is_the_share_to_the_nearest_threshold_that_mattered(changes, margin):
-    assert label(**changes).margin == pytest.approx(margin)
-
-
-@pytest.mark.parametrize(
-    ("changes", "fingers"),
-    [
-        ({}, 2),
-        ({"span_m": 0.1}, 2),
-        ({"enclosed_diameter_m": 0.04, "sideways_share": 0.2}, 2),
-        ({"sideways_share": 0.2}, 3),
-        ({"palm_gap_m": 0.1}, 2),
-        ({"palm_gap_m": 0.1, "sideways_share": 0.2}, 3),
-    ],
-)
-def test_virtual_fingers(changes, fingers):
-    assert label(**changes).virtual_fingers == fingers
+    assert labelled(**changes).margin == pytest.approx(margin)
 
 
 def contacts(push=(0.0, -1.0, 0.0), weight=1.0):
@@ -205,28 +190,34 @@ def test_enclosed_diameter_falls_as_the_hand_closes():
     assert diameters[-1] >= 0
 
 
-def test_measure_takes_the_median_finger():
-    angles = kinematics.couple(np.radians([[0, 20, 90, 140]]))
-    expected = enclosed_diameters(angles)[0, 1]
-    assert measure(contacts(), angles).enclosed_diameter_m[0] == pytest.approx(expected)
-
-
-def test_measures_are_those_of_each_grasp():
-    two = Contacts(*(np.concatenate([values, values]) for values in contacts()))
-    two.gap_m[:, PALM] = [0.01, 0.03]
-    two.push[1] = [1.0, 0.0, 0.0]
-    two.position_m[1, DISTAL_LINKS[0]] = [0.0, 0.09, 0.0]
-    angles = kinematics.couple(np.radians([[0, 20, 90, 140], [0, 60, 60, 60]]))
-    found = measure(two, angles)
-    np.testing.assert_allclose(found.palm_gap_m, [0.01, 0.03])
-    np.testing.assert_allclose(found.sideways_share, [0.0, 1.0])
-    np.testing.assert_allclose(found.span_m, [0.0, 0.09])
-    np.testing.assert_allclose(
-        found.enclosed_diameter_m, np.sort(enclosed_diameters(angles), axis=1)[:, 1]
-    )
+def test_measures_are_those_of_each_grasp_and_of_its_median_finger():
+    angles = kinematics.couple(np.radians([[0, 20, 90, 140], [40, 60, 50, 60]]))
+    hands = HandStates(np.tile(np.eye(4), (2, 1, 1)), angles)
+    field = Ball(0.04, (0.01, 0.0, 0.07))
+    contacts = find_contacts(field, hands, CONTACTS)
+    found = measure(field, hands, CONTACTS)
+    np.testing.assert_allclose(found.palm_gap_m, contacts.gap_m[:, PALM])
+    np.testing.assert_allclose(found.sideways_share, sideways_share(contacts))
+    np.testing.assert_allclose(found.span_m, fingertip_span(contacts))
+    middle = np.sort(enclosed_diameters(angles), axis=1)[:, 1]
+    np.testing.assert_allclose(found.enclosed_diameter_m, middle)
 
 
 def test_nothing_is_enclosed_by_fingers_that_cross_the_palm():
     closed = kinematics.couple(np.radians([[0, 140, 140, 140]]))
     assert (enclosed_diameters(closed) >= 0).all()
     assert enclosed_diameters(np.full((1, 8), np.radians(150)))[0].tolist() == [0.0] * 3
+
+
+class Jar:
+    """An object that is a ball."""
+
+    distance_grid = Ball(0.04, (0.0, 0.0, 0.041))
+
+
+@pytest.mark.parametrize(("back_m", "branch"), [(0.0, "power: palm gap 1"), (0.05, "precision")])
+def test_a_single_grasp_is_labelled_in_the_frame_of_its_object(back_m, branch):
+    angles = kinematics.couple(np.radians([60, 90, 90, 85]))
+    settings = PARAMS.grasp_types.model_copy(update={"thresholds": THRESHOLDS})
+    pose = RigidTransform.from_translation([0.0, 0.0, -back_m])
+    assert label(Grasp(Jar(), "use", pose, angles, "", "", 0.0), settings).branch.startswith(branch)

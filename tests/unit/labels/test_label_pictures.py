@@ -3,7 +3,7 @@
 import numpy as np
 import pandas as pd
 
-from grasptypes.labels.agreement import TYPES
+from grasptypes.labels.grasp_type import TYPES
 from grasptypes.labels.label_pictures import draw_confusion, draw_distribution, save_figure
 from grasptypes.labels.samples import COUNTS, samples_from_counts
 from grasptypes.reports.distribution import compare_distributions

@@ -1,20 +1,16 @@
-"""The tree as drawn is the tree that labels."""
+"""The drawn tree counts the grasps and shows the thresholds."""
 
 import numpy as np
 import pandas as pd
+from tests.unit.labels.cases import THRESHOLDS
 
-from grasptypes.labels.grasp_type import leaves
+from grasptypes.labels.grasp_type import WAYS
 from grasptypes.labels.label_tree import draw_label_tree, typical_grasps
-from grasptypes.settings.grasp_types import Thresholds
-
-THRESHOLDS = Thresholds(
-    palm_gap_m=0.02, small_diameter_m=0.05, sideways_share=0.05, large_span_m=0.08
-)
 
 
 def test_branches_count_what_lies_below_them() -> None:
-    counts = {name: number for number, name in enumerate(leaves(), start=1)}
-    pictures = {leaves()[0]: np.zeros((4, 4, 3), np.uint8)}
+    counts = {name: number for number, name in enumerate(WAYS, start=1)}
+    pictures = {next(iter(WAYS)): np.zeros((4, 4, 3), np.uint8)}
     figure = draw_label_tree(counts, 3, THRESHOLDS, pictures)
     texts = {text.get_text() for text in figure.axes[0].texts}
     assert "palm gap\n21 grasps" in texts

@@ -1,11 +1,13 @@
 """Objects of the published poses."""
 
 import numpy as np
+import pandas as pd
 import pytest
 import trimesh
+from tests.unit.settings import PARAMS
 
-from grasptypes.labels.published_data import REFERENCES, lacking_data
-from grasptypes.labels.published_objects import object_distances, own_mesh
+from grasptypes.hand import configuration
+from grasptypes.labels.published_data import REFERENCES, labelled_grasps, lacking_data, own_mesh
 from grasptypes.labels.published_source import PUBLISHED
 from grasptypes.objects.object_files import Surface, write_surface
 from grasptypes.settings.grasp_types import ModelFrame
@@ -35,16 +37,26 @@ def test_own_models_are_turned_before_and_shifted_after(own):
     np.testing.assert_allclose(mesh.bounds, [[-0.02, -0.09, 0], [0.02, 0.11, 0.02]], atol=1e-12)
 
 
-def test_reference_comes_first_and_what_is_nowhere_is_left_out(own, tmp_path):
-    box = trimesh.creation.box([0.1, 0.1, 0.1])
+def test_a_scan_comes_first_and_an_object_that_is_nowhere_is_left_out(own, tmp_path, monkeypatch):
+    above = np.eye(4)
+    above[2, 3] = 0.3
+    rows = [("bar", 0), ("none", 1)]
+    table = pd.DataFrame(
+        {
+            "object": [name for name, _ in rows],
+            "grasp_type": "Precision",
+            "hand_configuration": [configuration.pack(0, above, np.zeros(4))] * 2,
+        }
+    )
+    monkeypatch.setattr("grasptypes.labels.published_data.read_published", lambda path: table)
     (tmp_path / "scans").mkdir()
-    box.export(tmp_path / "scans" / "bar.stl")
-    names, own_folder = ["bar", "none"], own.parents[1]
-    found = object_distances(names, tmp_path / "scans", own_folder, 2.0, {})
-    assert list(found) == ["bar"]
-    assert np.ptp(found["bar"].vertices_m, axis=0) == pytest.approx([0.2, 0.2, 0.2])
-    found = object_distances(names, tmp_path, own_folder, 2.0, {})
-    assert np.ptp(found["bar"].vertices_m, axis=0) == pytest.approx([0.2, 0.04, 0.02])
+    trimesh.creation.box([0.1, 0.1, 0.1]).export(tmp_path / "scans" / "bar.stl")
+    for folder, height_m in ((tmp_path / "scans", 0.2), (tmp_path, 0.02)):
+        environment = {PUBLISHED: "table.csv", REFERENCES: str(folder)}
+        grasps = labelled_grasps(environment, own.parents[1], 2.0, PARAMS.grasp_types)
+        assert grasps.objects.tolist() == ["bar"]
+        # The palm faces away: its lowest point is 82.9 mm below its frame.
+        assert grasps.measures.palm_gap_m[0] == pytest.approx(0.3 - 0.0829 - height_m, abs=2e-3)
 
 
 def test_lacking_data_are_named_with_their_source(tmp_path):
