@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 import pytest
-from scipy.spatial.transform import Rotation
+from scipy.spatial.transform import RigidTransform, Rotation
 
 from grasptypes.errors import InputError
 from grasptypes.exchange import dexgraspbench, graspit_world, multigrippergrasp
@@ -25,9 +25,8 @@ from grasptypes.labels.published import read_published
 
 def hands(count=3):
     draw = np.random.default_rng(0)
-    T = np.broadcast_to(np.eye(4), (count, 4, 4)).copy()
-    T[:, :3, :3] = Rotation.random(count, rng=draw).as_matrix()
-    T[:, :3, 3] = draw.uniform(-0.2, 0.2, (count, 3))
+    turns = Rotation.random(count, rng=draw)
+    T = RigidTransform.from_components(draw.uniform(-0.2, 0.2, (count, 3)), turns)
     angles = kinematics.couple(draw.uniform(0, 2, (count, 4)))
     angles[0, 6] += 0.1  # one fingertip that its clutch has let go
     return PosedHands("mug", T, angles, np.array([True] * (count - 1) + [False]))
@@ -35,7 +34,8 @@ def hands(count=3):
 
 def assert_same(first, second, atol):
     assert first.object_name == second.object_name
-    np.testing.assert_allclose(first.T_object_hand, second.T_object_hand, atol=atol)
+    poses = [hands.T_object_hand.as_matrix() for hands in (first, second)]
+    np.testing.assert_allclose(*poses, atol=atol)
     np.testing.assert_allclose(first.joint_angles_rad, second.joint_angles_rad, atol=atol)
 
 
@@ -44,12 +44,12 @@ def one(hands, index):
 
 
 def test_position_and_quaternion_with_w_first():
-    T = np.eye(4)
-    T[:3, :3] = Rotation.from_euler("z", 90, degrees=True).as_matrix()
-    T[:3, 3] = 1, 2, 3
+    quarter = Rotation.from_euler("z", 90, degrees=True)
+    T = RigidTransform.from_components([1, 2, 3], quarter)
     half = np.sqrt(0.5)
     np.testing.assert_allclose(to_position_quaternion(T), [1, 2, 3, half, 0, 0, half], atol=1e-12)
-    np.testing.assert_allclose(from_position_quaternion([1, 2, 3, 2, 0, 0, 2]), T, atol=1e-12)
+    back = from_position_quaternion([1, 2, 3, 2, 0, 0, 2])
+    np.testing.assert_allclose(back.as_matrix(), T.as_matrix(), atol=1e-12)
     with pytest.raises(ValueError, match="7 numbers"):
         from_position_quaternion([1, 2, 3])
 
@@ -75,7 +75,7 @@ def test_graspit_world_as_graspit_writes_it(tmp_path):
     )
     world = graspit_world.read_world(tmp_path / "w.xml")
     assert world.object_name == "glass"
-    np.testing.assert_allclose(world.T_object_hand[0, :3, 3], [0, 0.02, -0.05], atol=1e-12)
+    np.testing.assert_allclose(world.T_object_hand[0].translation, [0, 0.02, -0.05], atol=1e-12)
     expected = [0.5, 0.5, 0.9, 0.6, 0.9, 0.3, 0.3, 0.3]
     np.testing.assert_allclose(world.joint_angles_rad[0], expected)
 
@@ -175,7 +175,7 @@ def test_published_csv(tmp_path):
             "rank": 0,
             "energy": [-0.2, -0.1, 0.0],
             "pose_index": 0,
-            "hand_configuration": list(configuration.pack(0, mine.T_object_hand, dofs)),
+            "hand_configuration": list(configuration.pack(0, mine.T_object_hand.as_matrix(), dofs)),
             "image": "screenshots/mug.png",
         }
     )

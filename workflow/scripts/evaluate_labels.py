@@ -40,7 +40,7 @@ def evaluate_labels(
 
 
 def validate_thresholds(grasps: LabelledGrasps, settings: GraspTypeSettings, table: Path) -> str:
-    """Fit on all objects that `fitted_on` names but one, in turn; returns a line for the log."""
+    """Cross-validate over the objects in `fitted_on`; returns a line for the log."""
     known = grasps.select(np.isin(grasps.objects, settings.fitted_on))
     scores = cross_validate(known, settings.softness)
     write_table(scores, table, THRESHOLD_SCHEMA)

@@ -18,11 +18,13 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.spatial.transform import RigidTransform
 
 from grasptypes.errors import InputError, parsing
 from grasptypes.exchange.records import (
     PosedHands,
     from_position_quaternion,
+    relative,
     to_position_quaternion,
 )
 from grasptypes.files import write_bytes
@@ -53,7 +55,7 @@ def write_grasp(
     pose = to_position_quaternion(hands.T_object_hand[index])
     angles = hands.joint_angles_rad[index]
     content = {
-        "obj_pose": to_position_quaternion(np.eye(4)),
+        "obj_pose": to_position_quaternion(RigidTransform.identity()),
         "obj_scale": float(scale),
         "obj_path": object_path,
         "pregrasp_qpos": np.concatenate([pose, _turned(angles, OPEN)]),
@@ -78,11 +80,9 @@ def read_grasp(path: str | Path) -> PosedHands:
     qpos = np.asarray(content["grasp_qpos"], dtype=np.float64)
     if qpos.shape != (QPOS,):
         raise InputError(path, "grasp_qpos", f"has shape {qpos.shape} instead of ({QPOS},)")
-    T_world_object = from_position_quaternion(content["obj_pose"])
-    T_object_hand = np.linalg.inv(T_world_object) @ from_position_quaternion(qpos[:7])
-    held = np.array([bool(content.get("succ_flag", True))])
-    name = Path(str(content["obj_path"])).name
-    return PosedHands(name, T_object_hand[None], qpos[None, 7:], held)
+    poses = from_position_quaternion(content["obj_pose"]), from_position_quaternion(qpos[:7])
+    name, held = Path(str(content["obj_path"])).name, bool(content.get("succ_flag", True))
+    return relative(name, poses, qpos[7:], held)
 
 
 def _turned(angles: NDArray[np.float64], factor: float) -> NDArray[np.float64]:

@@ -14,11 +14,13 @@ from xml.etree import ElementTree
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.spatial.transform import RigidTransform
 
 from grasptypes.errors import InputError, parsing
 from grasptypes.exchange.records import (
     PosedHands,
     from_position_quaternion,
+    relative,
     to_position_quaternion,
 )
 from grasptypes.files import write_bytes
@@ -42,7 +44,7 @@ def write_world(path: str | Path, hands: PosedHands, index: int, object_file: st
     world = ElementTree.Element("world")
     body = ElementTree.SubElement(world, "graspableBody")
     ElementTree.SubElement(body, "filename").text = object_file
-    _add_pose(body, np.eye(4))
+    _add_pose(body, RigidTransform.identity())
     robot = ElementTree.SubElement(world, "robot")
     ElementTree.SubElement(robot, "filename").text = ROBOT
     values = dof_values(hands.joint_angles_rad[index])
@@ -66,11 +68,9 @@ def read_world(path: str | Path) -> PosedHands:
     ]
     if body is None or len(robots) != 1:
         raise InputError(path, "", "needs one graspableBody and one Barrett robot")
-    T_world_object, T_world_hand = (_pose(path, part) for part in (body, robots[0]))
     angles = _joint_angles(path, _text(robots[0], "dofValues"))
-    T_object_hand = np.linalg.inv(T_world_object) @ T_world_hand
-    name = Path(_text(body, "filename")).stem
-    return PosedHands(name, T_object_hand[None], angles[None], np.array([True]))
+    name, poses = Path(_text(body, "filename")).stem, (_pose(path, body), _pose(path, robots[0]))
+    return relative(name, poses, angles, held=True)
 
 
 def dof_values(joint_angles_rad: Array) -> list[float]:
@@ -99,7 +99,7 @@ def _joint_angles(path: str | Path, text: str) -> Array:
     return np.array([numbers[0], numbers[0], *proximal, *(DISTAL_RATIO * fingers[:, 0])])
 
 
-def _add_pose(parent: ElementTree.Element, T: Array) -> None:
+def _add_pose(parent: ElementTree.Element, T: RigidTransform) -> None:
     numbers = to_position_quaternion(T)
     turn = " ".join(f"{value:+.9g}" for value in numbers[3:])
     place = " ".join(f"{value:+.9g}" for value in numbers[:3] * MM)
@@ -107,7 +107,7 @@ def _add_pose(parent: ElementTree.Element, T: Array) -> None:
     pose.text = f"({turn})[{place}]"
 
 
-def _pose(path: str | Path, parent: ElementTree.Element) -> Array:
+def _pose(path: str | Path, parent: ElementTree.Element) -> RigidTransform:
     text = _text(parent, "transform/fullTransform")
     match = re.fullmatch(r"\s*\(([^)]*)\)\s*\[([^]]*)\]\s*", text)
     groups = match.groups() if match else ("", "")

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 import pandas as pd
 from numpy.typing import ArrayLike
+from scipy.spatial.transform import RigidTransform
 
 from grasptypes.exchange.records import PosedHands
 from grasptypes.hand import configuration, kinematics
@@ -49,5 +50,5 @@ def posed_hands(published: pd.DataFrame, object_name: str) -> PosedHands:
     rows = published[known]
     hand = configuration.unpack(np.stack(rows.hand_configuration.tolist()))
     held = (rows.grasp_type != "Invalid").to_numpy(dtype=bool)
-    angles = kinematics.couple(hand.dofs_rad)
-    return PosedHands(object_name, hand.T_object_hand, angles, held)
+    poses = RigidTransform(hand.T_object_hand, normalize=False)
+    return PosedHands(object_name, poses, kinematics.couple(hand.dofs_rad), held)

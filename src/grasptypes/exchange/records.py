@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.spatial.transform import Rotation
+from scipy.spatial.transform import RigidTransform, Rotation
 
 Array = NDArray[np.float64]
 
@@ -18,23 +18,22 @@ class PosedHands(NamedTuple):
     """n grasps of one object."""
 
     object_name: str
-    T_object_hand: Array
-    """(n, 4, 4) palm frame of `hand.kinematics` in the object frame, metres."""
+    T_object_hand: RigidTransform
+    """n palm frames of `hand.kinematics` in the object frame, metres."""
     joint_angles_rad: Array
     """(n, 8) in the order of `kinematics.JOINT_NAMES`."""
     held: NDArray[np.bool_]
     """(n,) whether the grasp passed its test."""
 
 
-def to_position_quaternion(T: ArrayLike) -> Array:
-    """Poses (..., 4, 4) as x, y, z, then w, x, y, z (..., 7), w not negative."""
-    T = np.asarray(T, dtype=np.float64)
-    quaternion = Rotation.from_matrix(T[..., :3, :3]).as_quat(canonical=True, scalar_first=True)
-    return np.concatenate([T[..., :3, 3], quaternion], axis=-1)
+def to_position_quaternion(T: RigidTransform) -> Array:
+    """Poses as x, y, z, then w, x, y, z (..., 7), w not negative."""
+    quaternion = T.rotation.as_quat(canonical=True, scalar_first=True)
+    return np.concatenate([T.translation, quaternion], axis=-1)
 
 
-def from_position_quaternion(numbers: ArrayLike) -> Array:
-    """Poses (..., 4, 4) of x, y, z, then w, x, y, z (..., 7), with a quaternion of any length.
+def from_position_quaternion(numbers: ArrayLike) -> RigidTransform:
+    """Poses of x, y, z, then w, x, y, z (..., 7), with a quaternion of any length.
 
     Raises:
         ValueError: not seven numbers, or a quaternion of length zero.
@@ -42,7 +41,15 @@ def from_position_quaternion(numbers: ArrayLike) -> Array:
     numbers = np.asarray(numbers, dtype=np.float64)
     if numbers.shape[-1:] != (7,):
         raise ValueError(f"a pose has 7 numbers, not shape {numbers.shape}")
-    T = np.broadcast_to(np.eye(4), (*numbers.shape[:-1], 4, 4)).copy()
-    T[..., :3, :3] = Rotation.from_quat(numbers[..., 3:], scalar_first=True).as_matrix()
-    T[..., :3, 3] = numbers[..., :3]
-    return T
+    rotation = Rotation.from_quat(numbers[..., 3:], scalar_first=True)
+    return RigidTransform.from_components(numbers[..., :3], rotation)
+
+
+def relative(
+    object_name: str, T_world: tuple[RigidTransform, RigidTransform], angles: Array, held: bool
+) -> PosedHands:
+    """A single grasp, given object and hand in the world and the joint angles (8,)."""
+    T_world_object, T_world_hand = T_world
+    T_object_hand = T_world_object.inv() * T_world_hand
+    poses = RigidTransform(T_object_hand.as_matrix()[None], normalize=False)
+    return PosedHands(object_name, poses, angles[None], np.array([held]))

@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 import pandera.pandas as pa
+from scipy.spatial.transform import RigidTransform
 
 from grasptypes.exchange import dexgraspbench, graspit_world, multigrippergrasp
 from grasptypes.exchange.published_csv import format_configuration
@@ -71,8 +72,8 @@ def posed(grasps: pd.DataFrame) -> PosedHands:
     """Grasps of one object as all formats of the field take them."""
     numbers = np.stack(grasps.hand_configuration.tolist())
     angles = np.stack(grasps.joint_angles_rad.tolist()).astype(np.float64)
-    T_object_hand = configuration.unpack(numbers).T_object_hand
-    return PosedHands(str(grasps.object.iloc[0]), T_object_hand, angles, grasps.valid.to_numpy())
+    poses = RigidTransform(configuration.unpack(numbers).T_object_hand, normalize=False)
+    return PosedHands(str(grasps.object.iloc[0]), poses, angles, grasps.valid.to_numpy())
 
 
 def write_formats(hands: PosedHands, folder: Path) -> None:

@@ -103,7 +103,9 @@ def test_the_formats_of_the_field_hold_the_same_hands(planned):
         grasp = dexgraspbench.read_grasp(planned / f"dexgraspbench/grasp_{number + 1:02}.npy")
         for other in (world, grasp):
             np.testing.assert_allclose(
-                other.T_object_hand[0], hands.T_object_hand[number], atol=1e-6
+                other.T_object_hand[0].as_matrix(),
+                hands.T_object_hand[number].as_matrix(),
+                atol=1e-6,
             )
     with Image.open(planned / "grasps.png") as picture:
         assert picture.width == 64 * min(2, len(valid))
