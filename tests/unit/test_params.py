@@ -23,7 +23,7 @@ def test_the_parameters_of_the_project_are_allowed():
     ("change", "line"),
     [
         ({"tasks": {"use": {"color_shift": 10}}}, "tasks.use: 'color_shift' is not a known key"),
-        ({"seed": "one"}, "seed: 'one' is not an integer (whole number, part of the key"),
+        ({"seed": "one"}, "seed: 'one' is not an integer (integer, part of the key"),
         ({"seed": -1}, "seed: -1 is less than the minimum of 0 ("),
         ({"tasks": ["use"]}, "tasks: ['use'] is not a mapping"),
         ({"tasks": {"use": {"colour_shift": 999}}}, "tasks.use.colour_shift: 999 is greater than"),

@@ -12,7 +12,7 @@ class PhotoLimits(Settings):
 
     min_px: int = setting("shortest side", ge=1)
     max_pixels: int = setting("width times height", ge=1)
-    reduce_px: int = setting("longer sides are reduced to this", ge=32)
+    reduce_px: int = setting("longer sides are scaled down to this", ge=32)
 
 
 class PredictSettings(Settings):
@@ -21,25 +21,25 @@ class PredictSettings(Settings):
     model: Literal["no_task", "task_vector", "task_in_image", "ignores_task"] = setting(
         "a model of Table I"
     )
-    labels: Literal["simulated", "published"] = setting("labels it was trained on")
-    views: int = setting("views of a mesh", ge=1, le=1000)
+    labels: Literal["simulated", "published"] = setting("label source the model was trained on")
+    views: int = setting("number of views of a mesh", ge=1, le=1000)
     photos: PhotoLimits
 
 
 class PlanComparisonSettings(Settings):
-    """What choosing types first buys."""
+    """Study of choosing types before planning."""
 
-    sessions: int = setting("sessions an object and task", ge=1, le=1000)
+    sessions: int = setting("sessions per object and task", ge=1, le=1000)
     seeds: int = setting("repetitions of each predictor", ge=1, le=100)
 
 
 class PlanSettings(Settings):
     """Defaults and limits of `grasptypes plan`."""
 
-    sessions: int = setting("ways of holding, one grasp each", ge=1, le=1000)
+    sessions: int = setting("number of ways of holding, one grasp each", ge=1, le=1000)
     min_mass_kg: float = setting("smallest mass of an object", gt=0)
     max_mass_kg: float = setting("largest mass of an object", gt=0)
-    shown: int = setting("best grasps on the picture", ge=1, le=100)
+    shown: int = setting("number of grasps in the image", ge=1, le=100)
     comparison: PlanComparisonSettings
 
 
@@ -47,7 +47,7 @@ class TrackingSettings(Settings):
     """The view of all runs in MLflow."""
 
     database: str = setting("SQLite file", min_length=1)
-    experiment: str = setting("name under which the runs stand", min_length=1)
+    experiment: str = setting("name of the experiment", min_length=1)
     patience_s: float = setting(
         "how long to wait for a store that another process is writing", ge=0, le=3600
     )

@@ -15,14 +15,16 @@ class HandLengths(Settings):
 class HandProportions(Settings):
     """Measures of the hand as shares of its length."""
 
-    breadth: float = setting("across the four fingers' bases", gt=0, le=2)
+    breadth: float = setting("across the bases of the four fingers", gt=0, le=2)
     finger_reach: float = setting("from the palm's centre to a fingertip", gt=0, le=2)
-    thumb_reach: float = setting("from the palm's centre to the thumb's tip", gt=0, le=2)
-    palm_half: float = setting("half of the touching palm", gt=0, le=2)
+    thumb_reach: float = setting("from the palm's centre to the tip of the thumb", gt=0, le=2)
+    palm_half: float = setting("half of the palm area that touches", gt=0, le=2)
     palm_radius: float = setting("palm's patch when the fingers are spread", gt=0, le=2)
     finger_half_width: float = setting("half a finger's breadth", gt=0, le=2)
     pad_radius: float = setting("radius of a fingertip's patch", gt=0, le=2)
-    span: float = setting("from a precision grip's centre to a fingertip at most", gt=0, le=2)
+    span: float = setting(
+        "maximum distance from the centre of a precision grip to a fingertip", gt=0, le=2
+    )
     softness: float = setting("depth by which skin gives way", gt=0, le=2)
 
 
@@ -35,22 +37,24 @@ class PlacementSettings(Settings):
     roll_sd_rad: float = setting(
         "roll of the hand about its approach, standard deviation", ge=0, le=1.6
     )
-    slice_m: float = setting("half the thickness of the cut the hand is centred on", gt=0, le=0.1)
+    slice_m: float = setting(
+        "half the thickness of the slice on which the hand is centred", gt=0, le=0.1
+    )
     depth_m: float = setting("depth of the fingertips below a rim", gt=0, le=0.2)
 
 
 class MeasuredMapSettings(Settings):
     """How a map measured on an own object becomes a probability and sessions."""
 
-    coldest: float = setting("probability of the coldest vertex seen", gt=0, lt=0.5)
-    warmest: float = setting("probability of the warmest vertex", gt=0.5, lt=1)
+    coldest: float = setting("probability at the coldest visible vertex", gt=0, lt=0.5)
+    warmest: float = setting("probability at the warmest vertex", gt=0.5, lt=1)
     max_gap_m: float = setting(
-        "from a surface point to its nearest vertex of the scan at most", gt=0, le=0.05
+        "maximum distance from a surface point to its nearest vertex of the scan", gt=0, le=0.05
     )
     min_seen_share: float = setting(
-        "least share of the surface points that the scan must show", ge=0, le=1
+        "smallest share of the surface points that the scan must show", ge=0, le=1
     )
-    placements: int = setting("placements a person compares", ge=1, le=10000)
+    placements: int = setting("placements that a person compares", ge=1, le=10000)
     sharpness: float = setting(
         "power of a placement's agreement with the map that weights it", ge=0, le=100
     )
@@ -60,11 +64,11 @@ class ContactMapSettings(Settings):
     """How contact maps are drawn."""
 
     affinities: str = setting("path of the affinity table, a CSV", min_length=1)
-    sessions: int = setting("ways of holding drawn for an object and task", ge=1, le=1000)
-    population: int = setting("people whose mean is the population's map", ge=1, le=10000)
-    points: int = setting("surface points of a map", ge=100, le=100000)
-    threshold: float = setting("contact from which a point counts as touched (0 to 1)", gt=0, lt=1)
-    tries: int = setting("placements a person tries before giving up", ge=1, le=1000)
+    sessions: int = setting("ways of holding per object and task", ge=1, le=1000)
+    population: int = setting("virtual people whose mean is the population's map", ge=1, le=10000)
+    points: int = setting("number of surface points of a map", ge=100, le=100000)
+    threshold: float = setting("contact above which a point counts as touched (0 to 1)", gt=0, lt=1)
+    tries: int = setting("placements that a person tries before giving up", ge=1, le=1000)
     people: Many[HandLengths] = setting("equally large groups of people", min_length=1)
     hand: HandProportions
     placement: PlacementSettings
@@ -77,4 +81,4 @@ class ContactEvidenceSettings(Settings):
     hand_spacing_m: float = setting(
         "distance between neighbouring points on the hand", ge=0.001, le=0.05
     )
-    touch_m: float = setting("surfaces nearer than this touch", gt=0, le=0.05)
+    touch_m: float = setting("surfaces closer than this touch", gt=0, le=0.05)

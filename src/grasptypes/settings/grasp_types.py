@@ -19,29 +19,27 @@ class ContactSettings(Settings):
         "distance between neighbouring points on the hand", ge=0.001, le=0.05
     )
     patch_depth_m: float = setting(
-        "depth over which a link's points count e times less", gt=0, le=0.05
+        "depth over which the weight of a link's points falls by a factor of e", gt=0, le=0.05
     )
-    reach_m: float = setting("gap at which a link no longer pushes", gt=0, le=0.1)
+    reach_m: float = setting("gap above which a link no longer pushes", gt=0, le=0.1)
     closing_weight: float = setting(
-        "length of the closing direction beside the unit normal", ge=0, le=100
+        "weight of the closing direction relative to the unit normal", ge=0, le=100
     )
 
 
 class Thresholds(Settings):
-    """Where the tree branches."""
+    """Thresholds of the decision tree."""
 
-    palm_gap_m: float = setting("largest gap at the palm of a power grasp", gt=0, le=0.2)
+    palm_gap_m: float = setting("largest palm gap of a power grasp", gt=0, le=0.2)
     small_diameter_m: float = setting("largest enclosed diameter of a small wrap", gt=0, le=0.3)
     sideways_share: float = setting(
-        "share of sideways push above which a third virtual finger acts", gt=0, le=1
+        "sideways share above which there is a third virtual finger", gt=0, le=1
     )
-    large_span_m: float = setting(
-        "span of the fingertips above which a wrap is large", gt=0, le=0.3
-    )
+    large_span_m: float = setting("fingertip span above which a wrap is large", gt=0, le=0.3)
 
 
 class Softness(Settings):
-    """Widths over which a label counts in part while fitting, natural logarithm of a measure."""
+    """Widths over which a label counts in part while fitting, in natural logarithms."""
 
     palm_gap_m: Width
     small_diameter_m: Width
@@ -50,10 +48,10 @@ class Softness(Settings):
 
 
 class ModelFrame(Settings):
-    """How our own model of an object lies in the frame of the published poses."""
+    """Placement of our own model of an object in the frame of the published poses."""
 
     rotation: Triple[Triple[Unit]] = setting("3 x 3, applied to the model's points")
-    shift_m: Triple[Unit] = setting("after the model is stood on the ground")
+    shift_m: Triple[Unit] = setting("after placing the model on the ground")
 
 
 class GraspTypeSettings(Settings):
@@ -64,14 +62,14 @@ class GraspTypeSettings(Settings):
     fitted_on: Unique[str] = setting("objects whose published labels the thresholds were fitted on")
     softness: Softness
     own_frames: dict[Name, ModelFrame] = setting(
-        "how our own model of an object lies in the frame of the published poses"
+        "placement of our own object models in the frame of the published poses"
     )
 
 
 class PublishedSettings(Settings):
     """The authors' table of grasps."""
 
-    timeout_s: float = setting("how long an unreachable host may hold things up", gt=0, le=60)
+    timeout_s: float = setting("how long to wait for an unreachable host", gt=0, le=60)
 
 
 class ReplaySettings(Settings):
@@ -82,5 +80,5 @@ class ReplaySettings(Settings):
         "distance between neighbouring points on the hand", ge=0.001, le=0.05
     )
     limit_tolerance_rad: float = setting(
-        "how far an angle may lie beyond the real hand's limit", ge=0, le=0.2
+        "how far an angle may exceed the real hand's limit", ge=0, le=0.2
     )

@@ -40,7 +40,7 @@ def _is_no_variant(name: str) -> str:
 
 
 class VariationRanges(Settings):
-    """What variants are drawn from; least and largest value of each."""
+    """Ranges to draw variants from; smallest and largest value of each."""
 
     size: Annotated[Pair[Factor], AfterValidator(_upwards)] = setting("factor on everything")
     stretch: Annotated[Pair[Factor], AfterValidator(_upwards)] = setting("factor along each axis")
@@ -57,14 +57,14 @@ class OwnObject(Settings):
 
     file: str = setting("STL, OBJ, PLY or GLB of the object")
     unit: Literal["m", "cm", "mm", "inch"] = setting("length unit of the file")
-    scale: float = setting("size relative to the file's", default=1.0, gt=0)
+    scale: float = setting("size relative to the file", default=1.0, gt=0)
     density_kg_m3: float | None = setting("density of the material", default=None, gt=0)
     mass_kg: float | None = setting("mass of the object", default=None, gt=0)
     shell_thickness_m: float | None = setting(
-        "wall thickness of a hollow object whose mesh is its outside", default=None, gt=0
+        "wall thickness of a hollow object whose mesh is the outside", default=None, gt=0
     )
     contact_maps: dict[str, str] = setting(
-        "a PLY with a contact map for each task (red channel, 0 is unseen)", default={}
+        "PLY contact map for each task (red channel, 0 is unseen)", default={}
     )
 
     @model_validator(mode="after")
@@ -79,25 +79,27 @@ class Resolution(Settings):
 
     surface_tolerance_m: float = setting("how far a surface may be simplified", ge=0, le=0.001)
     surface_edge_m: float = setting("longest edge of the evenly meshed surface", ge=0.0005, le=0.02)
-    crease_deg: float = setting("edges sharper than this are shaded sharp", ge=1, le=180)
+    crease_deg: float = setting("edges sharper than this are shaded as edges", ge=1, le=180)
     grid_spacing_m: float = setting(
         "distance between nodes of the distance grid", ge=0.0005, le=0.01
     )
     grid_margin_m: float = setting(
         "how far the distance grid reaches beyond the object", ge=0.002, le=0.2
     )
-    collision_max_parts: int = setting("most convex parts an object", ge=1, le=512)
+    collision_max_parts: int = setting("maximum number of convex parts per object", ge=1, le=512)
     collision_max_gap_m: float = setting(
-        "mean thickness of the space that hulls may fill", ge=0, le=0.05
+        "largest mean thickness of the empty space inside hulls", ge=0, le=0.05
     )
     collision_tolerance_m: float = setting(
-        "how far collision vertices may be simplified away", ge=0, le=0.005
+        "tolerance when simplifying collision parts", ge=0, le=0.005
     )
-    collision_max_vertices: int = setting("most vertices of a convex part", ge=8, le=4096)
+    collision_max_vertices: int = setting(
+        "maximum number of vertices of a convex part", ge=8, le=4096
+    )
 
 
 class ImportLimits(Settings):
-    """What an own mesh must meet."""
+    """Requirements on a user's own mesh."""
 
     min_size_m: float = setting("smallest allowed longest extent", gt=0)
     max_size_m: float = setting("largest allowed longest extent", gt=0)
@@ -106,32 +108,32 @@ class ImportLimits(Settings):
     max_open_share: float = setting(
         "share of enclosed space of uncertain winding number", ge=0, le=1
     )
-    max_faces: int = setting("most faces of a mesh", ge=4)
-    max_file_mb: float = setting("largest mesh file", gt=0)
+    max_faces: int = setting("maximum number of faces of a mesh", ge=4)
+    max_file_mb: float = setting("largest size of a mesh file", gt=0)
     min_volume_share: float = setting(
-        "least volume over the cube of the longest extent", ge=0, le=1
+        "smallest volume divided by the cube of the longest extent", ge=0, le=1
     )
 
 
 class ComparisonSettings(Settings):
     """Samples of the comparison with reference meshes."""
 
-    surface_samples: int = setting("points drawn on each surface", ge=100)
-    volume_samples: int = setting("points drawn in the joint bounding box", ge=1000)
+    surface_samples: int = setting("points sampled on each surface", ge=100)
+    volume_samples: int = setting("points sampled in the joint bounding box", ge=1000)
 
 
 class ObjectSettings(Settings):
     """The objects, and how finely their files follow them."""
 
     names: Unique[Annotated[str, AfterValidator(_of_catalogue)]] = setting(
-        "objects of the catalogue to work on"
+        "objects from the catalogue"
     )
-    scale: float = setting("size relative to ContactDB's", gt=0, le=10)
+    scale: float = setting("size relative to ContactDB", gt=0, le=10)
     variants: int = setting(
-        "variants of each catalogue object in other sizes and proportions", ge=0, le=99
+        "number of variants of each catalogue object in other sizes and proportions", ge=0, le=99
     )
     variation: VariationRanges
-    variant_views: int = setting("pictures of a variant", ge=1)
+    variant_views: int = setting("images of a variant", ge=1)
     own: dict[Annotated[Name, AfterValidator(_is_no_variant)], OwnObject] = setting(
         "a user's own objects by name"
     )

@@ -37,7 +37,7 @@ def _is_a_task(name: str) -> str:
 class Params(Settings):
     """Parameters of the grasptypes workflow."""
 
-    seed: int = setting("whole number, part of the key of every random draw", ge=0)
+    seed: int = setting("integer, part of the key of every random draw", ge=0)
     tasks: dict[Annotated[Name, AfterValidator(_is_a_task)], TaskSettings] = setting(
         "what the object is grasped for, in the order of task vectors", min_length=1
     )
@@ -56,7 +56,7 @@ class Params(Settings):
     features: FeatureSettings
     folds: FoldSettings
     labels: Unique[Literal["simulated", "published"]] = setting(
-        "label sources that tables are made for", min_length=1
+        "label sources to make tables for", min_length=1
     )
     predictors: PredictorSettings
     generalisation: GeneralisationSettings

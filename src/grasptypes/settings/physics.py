@@ -6,13 +6,15 @@ from grasptypes.settings.base import Settings, setting
 
 
 class ValiditySettings(Settings):
-    """What a valid grasp keeps to."""
+    """Limits of a valid grasp."""
 
-    max_depth_m: float = setting("depth that makes a grasp invalid", ge=0, le=0.05)
-    strict_depth_m: float = setting("stricter depth that is reported too", ge=0, le=0.05)
-    min_links: int = setting("links that must touch", ge=1, le=9)
-    touch_m: float = setting("distance up to which a planned finger touches", ge=0, le=0.005)
-    limit_tolerance_rad: float = setting("how far a joint may be beyond its limit", ge=0, le=0.2)
+    max_depth_m: float = setting("penetration depth above which a grasp is invalid", ge=0, le=0.05)
+    strict_depth_m: float = setting("stricter depth, which is reported too", ge=0, le=0.05)
+    min_links: int = setting("number of links that must touch", ge=1, le=9)
+    touch_m: float = setting(
+        "distance below which a planned finger counts as touching", ge=0, le=0.005
+    )
+    limit_tolerance_rad: float = setting("how far a joint may exceed its limit", ge=0, le=0.2)
     lag_tolerance_rad: float = setting(
         "how far a fingertip may be behind a third of its finger's angle", ge=0, le=0.2
     )
@@ -22,7 +24,7 @@ class PhysicsSettings(Settings):
     """The test in PyBullet."""
 
     timestep_s: float = setting("time step", ge=0.0001, le=0.01)
-    solver_iterations: int = setting("of the constraint solver, each step", ge=1, le=1000)
+    solver_iterations: int = setting("iterations of the constraint solver per step", ge=1, le=1000)
     friction: float = setting("Coulomb coefficient between hand and object", ge=0, le=5)
     gravity_m_s2: float = setting("acceleration of gravity", ge=0, le=100)
     control_steps: int = setting("time steps between commands to the motors", ge=1, le=100)
@@ -38,14 +40,14 @@ class PhysicsSettings(Settings):
         "speed of the closing fingers, rad/s; the hand has 2.44", gt=0, le=2.45
     )
     gear_correction: float = setting(
-        "share of a coupled fingertip's lag made up for in a time step", gt=0, le=10
+        "share of a coupled fingertip's lag that is corrected per time step", gt=0, le=10
     )
-    gear_torque_nm: float = setting("torque up to which a finger's coupling is held", gt=0, le=1000)
+    gear_torque_nm: float = setting("maximum torque of a finger's coupling", gt=0, le=1000)
     squeeze_time_s: float = setting("closing without gravity", gt=0, le=10)
     hold_time_s: float = setting("holding against gravity", ge=0.1, le=60)
     drop_distance_m: float = setting("movement in the hand that counts as dropped", gt=0, le=1)
     drop_rotation_rad: float = setting("rotation in the hand that counts as dropped", gt=0, le=3.15)
-    shake: bool = setting("gravity from all six sides in turn, the worst counts")
+    shake: bool = setting("apply gravity from six sides in turn and take the worst")
 
 
 class GraspTestSettings(Settings):

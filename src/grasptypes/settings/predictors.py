@@ -1,4 +1,4 @@
-"""Sections `backbone` to `generalisation`: what is learnt, and how."""
+"""Sections `backbone` to `generalisation`: features, folds, predictors and their training."""
 
 from __future__ import annotations
 
@@ -12,15 +12,15 @@ from grasptypes.settings.base import Settings, Triple, Unique, setting
 class BackboneSettings(Settings):
     """The network whose features the predictors read."""
 
-    input_px: int = setting("size at which it sees a picture", ge=32, le=1024)
-    timeout_s: float = setting("how long an unreachable host may hold things up", ge=0, le=60)
+    input_px: int = setting("size of the network's input image", ge=32, le=1024)
+    timeout_s: float = setting("how long to wait for an unreachable host", ge=0, le=60)
 
 
 class FeatureSettings(Settings):
     """Frozen features of the images."""
 
     precision: Literal["fp32", "bf16"] = setting("number format of the network")
-    batch: int = setting("pictures at once", ge=1, le=4096)
+    batch: int = setting("images per batch", ge=1, le=4096)
 
 
 class FoldSettings(Settings):
@@ -32,10 +32,10 @@ class FoldSettings(Settings):
 class FineTuning(Settings):
     """Training of the backbone."""
 
-    last_blocks: int = setting("how many blocks from the end last_blocks means", ge=1, le=100)
+    last_blocks: int = setting("number of blocks from the end for last_blocks", ge=1, le=100)
     learning_rate: float = setting("of the backbone's blocks", gt=0, le=1)
-    epochs: int = setting("passes over the training pictures", ge=1, le=1000)
-    batch: int = setting("pictures a step", ge=1, le=4096)
+    epochs: int = setting("passes over the training images", ge=1, le=1000)
+    batch: int = setting("images per step", ge=1, le=4096)
 
 
 class PredictorSettings(Settings):
@@ -46,19 +46,23 @@ class PredictorSettings(Settings):
         "outputs of the first three layers"
     )
     components: int = setting(
-        "directions of the features the first layer is trained in", ge=1, le=4096
+        "number of feature directions in which the first layer is trained", ge=1, le=4096
     )
     whitening: float = setting("0 leaves the directions' variances, 1 makes them equal", ge=0, le=1)
     epochs: int = setting("passes over the training examples", ge=1, le=10000)
-    batch: int = setting("examples a step", ge=1, le=65536)
+    batch: int = setting("examples per step", ge=1, le=65536)
     learning_rate: float = setting("largest step of AdamW", gt=0, le=1)
     warm_up: float = setting("share of the steps in which the learning rate rises", gt=0, lt=1)
     weight_decay: float = setting("of AdamW", ge=0, le=10)
-    dropout: float = setting("share of the first two layers' outputs left out", ge=0, lt=1)
+    dropout: float = setting(
+        "share of the first two layers' outputs dropped in training", ge=0, lt=1
+    )
     probability_weight: float = setting(
         "weight of the probability vector's cross-entropy", ge=0, le=1000
     )
-    finetune: Literal["none", "last_blocks", "all"] = setting("what of the backbone is trained")
+    finetune: Literal["none", "last_blocks", "all"] = setting(
+        "part of the backbone that is trained"
+    )
     finetuning: FineTuning
 
     @property
@@ -68,16 +72,16 @@ class PredictorSettings(Settings):
 
 
 class VariantTrial(Settings):
-    """How many shapes of an object, and images of each, a predictor learns from."""
+    """Numbers of shapes per object, and of images per shape, in the training set."""
 
-    shapes: int = setting("shapes of an object, itself among them", ge=1, le=100)
-    views: int = setting("pictures of a shape", ge=1, le=1000)
+    shapes: int = setting("shapes of an object, including itself", ge=1, le=100)
+    views: int = setting("images per shape", ge=1, le=1000)
 
 
 class GeneralisationSettings(Settings):
     """Leave-one-object-out with variants."""
 
     trials: Unique[VariantTrial] = setting(
-        "how many shapes of an object, and pictures of each, a predictor learns from", min_length=1
+        "numbers of shapes per object, and of images per shape, in the training set", min_length=1
     )
-    seeds: int = setting("repetitions with other random starts", ge=1, le=100)
+    seeds: int = setting("repetitions with different random starts", ge=1, le=100)

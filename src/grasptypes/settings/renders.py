@@ -10,35 +10,37 @@ from grasptypes.settings.base import Many, Settings, Triple, setting
 
 
 class Light(Settings):
-    """A light that travels with the camera."""
+    """A light that moves with the camera."""
 
     intensity_lux: float = setting("brightness", ge=0, le=100)
     direction: Triple[float] = setting(
-        "the way the light travels, camera frame (x right, y up, -z forward)"
+        "direction in which the light travels, camera frame (x right, y up, -z forward)"
     )
 
 
 class RenderSheet(Settings):
     """Sheet that shows all objects."""
 
-    views: int = setting("pictures of each object", ge=1, le=100)
+    views: int = setting("number of images of each object", ge=1, le=100)
     columns: int = setting("objects side by side", ge=1, le=20)
-    tile_px: int = setting("size of a picture", ge=16, le=2048)
+    tile_px: int = setting("size of an image", ge=16, le=2048)
 
 
 class CameraSettings(Settings):
     """How an image is taken."""
 
-    size_px: int = setting("height and width of a picture", ge=32, le=2048)
-    field_of_view_rad: float = setting("full angle of a picture", ge=0.05, le=2.5)
-    fill: float = setting("share of the half picture that the object reaches", ge=0.1, le=1)
-    min_distance_radii: float = setting("closest camera, in radii of the object", ge=1.2, le=100)
+    size_px: int = setting("height and width of an image", ge=32, le=2048)
+    field_of_view_rad: float = setting("full angle of an image", ge=0.05, le=2.5)
+    fill: float = setting("share of half the image that the object reaches", ge=0.1, le=1)
+    min_distance_radii: float = setting(
+        "smallest camera distance, in radii of the object", ge=1.2, le=100
+    )
     colour_randomisation: float = setting(
         "0 keeps the materials' colours, 1 replaces them", ge=0, le=1
     )
     ambient: float = setting("ambient light, linear", ge=0, le=1)
     lights: Many[Light] = setting(
-        "lights that travel with the camera; the first throws the shadow",
+        "lights that move with the camera; the first casts the shadow",
         min_length=1,
         max_length=8,
     )
@@ -49,12 +51,14 @@ class CameraSettings(Settings):
     ground_elevation_rad: float = setting(
         "angle at which the camera looks down on the ground", ge=0.1, le=1.57
     )
-    shadow_strength: float = setting("share of light the deepest shadow takes", ge=0, le=1)
+    shadow_strength: float = setting(
+        "share of the light that the deepest shadow removes", ge=0, le=1
+    )
     shadow_softness_px: float = setting("standard deviation of the shadow's blur", ge=0, le=100)
     shadow_fading: float = setting(
-        "the highest point throws exp(-fading) of the lowest one's shadow", ge=0, le=100
+        "the highest point casts exp(-fading) of the lowest point's shadow", ge=0, le=100
     )
-    shadow_points: int = setting("surface points that throw the shadow", ge=100, le=1000000)
+    shadow_points: int = setting("surface points that cast the shadow", ge=100, le=1000000)
     png_compression: int = setting("zlib level", ge=0, le=9)
 
 
@@ -68,17 +72,17 @@ class RenderSettings(CameraSettings):
 class SessionSheet(Settings):
     """Sheets of all grasps of an object."""
 
-    columns: int = setting("pictures in a row", ge=1, le=40)
-    tile_px: int = setting("size of a picture", ge=32, le=2048)
+    columns: int = setting("images per row", ge=1, le=40)
+    tile_px: int = setting("size of an image", ge=32, le=2048)
 
 
 class GallerySettings(Settings):
     """Images of grasps and their sheets."""
 
-    screenshot_px: int = setting("size of the picture of each grasp", ge=32, le=2048)
-    size_px: int = setting("size at which grasps are drawn", ge=32, le=2048)
-    tile_px: int = setting("size of a picture on the sheet", ge=32, le=2048)
-    columns: int = setting("pictures in a row of the sheet", ge=1, le=40)
+    screenshot_px: int = setting("size of the image of each grasp", ge=32, le=2048)
+    size_px: int = setting("size at which grasps are rendered", ge=32, le=2048)
+    tile_px: int = setting("size of an image on the sheet", ge=32, le=2048)
+    columns: int = setting("images per row of the sheet", ge=1, le=40)
     elevation_rad: float = setting("of the camera above the object's xy plane", ge=-1.5, le=1.5)
     rejected: int = setting("examples of rejected grasps for each reason", ge=1, le=40)
     sessions: SessionSheet
@@ -87,9 +91,9 @@ class GallerySettings(Settings):
 class ContactPictureSettings(Settings):
     """Images of the contact maps."""
 
-    size_px: int = setting("height of a picture and width of each of its two views", ge=32, le=2048)
+    size_px: int = setting("height of an image and width of each of its two views", ge=32, le=2048)
     azimuth_rad: float = setting("of the first camera about z, from x", ge=-6.3, le=6.3)
     elevation_rad: float = setting("of the cameras above the horizon", ge=-1.5, le=1.5)
     edge_m: float = setting("longest edge of the coloured mesh", ge=0.0005, le=1)
-    columns: int = setting("pictures in a row of the sheet", ge=1, le=20)
-    tile_px: int = setting("height of a picture on the sheet", ge=32, le=2048)
+    columns: int = setting("images per row of the sheet", ge=1, le=20)
+    tile_px: int = setting("height of an image on the sheet", ge=32, le=2048)

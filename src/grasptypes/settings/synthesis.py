@@ -25,7 +25,7 @@ class HandSampling(Settings):
 
 
 class ShapeRanges(Settings):
-    """What the shape of a hand keeps to with a grip; least and most of each measure."""
+    """Ranges of the measures of a hand's shape for a grip; minimum and maximum of each."""
 
     palm_gap_m: Pair[Bound] = setting("gap between palm and object")
     enclosed_diameter_m: Pair[Bound] = setting("diameter of the circle in the fingers")
@@ -33,13 +33,13 @@ class ShapeRanges(Settings):
 
 
 class Grip(Settings):
-    """How a grip of the affinity table is done with this hand."""
+    """How this hand performs a grip of the affinity table."""
 
     spreads_rad: Many[Annotated[float, Field(ge=0, le=3.1416)]] = setting(
         "spreads to choose from", min_length=1
     )
     palm_distances_m: Many[Annotated[float, Field(ge=0, le=0.2)]] = setting(
-        "from the palm to the point aimed at", min_length=1
+        "from the palm to the target point", min_length=1
     )
     shape: ShapeRanges
 
@@ -62,14 +62,14 @@ class Grips(Settings):
 class CandidateSettings(Settings):
     """How candidates are drawn."""
 
-    number: int = setting("candidates a session", ge=1, le=100000)
-    follow_share: float = setting("share that follows the person's own placement", ge=0, le=1)
-    position_sd_m: float = setting("deviation of the point aimed at", ge=0, le=0.1)
-    tilt_sd_rad: float = setting("deviation of approach and roll", ge=0, le=1.6)
+    number: int = setting("candidates per session", ge=1, le=100000)
+    follow_share: float = setting("share that follows the person's placement", ge=0, le=1)
+    position_sd_m: float = setting("standard deviation of the target point", ge=0, le=0.1)
+    tilt_sd_rad: float = setting("standard deviation of approach and roll", ge=0, le=1.6)
     rolls: int = setting("evenly spaced rolls of candidates that do not follow", ge=1, le=360)
-    start_m: float = setting("distance before the object at which hands start", ge=0.1, le=2)
+    start_m: float = setting("distance in front of the object at which hands start", ge=0.1, le=2)
     back_offs_m: Many[Annotated[float, Field(ge=0, le=0.2)]] = setting(
-        "how far hands draw back from where they touched", min_length=1
+        "how far hands back off after touching", min_length=1
     )
     grips: Grips
 
@@ -83,72 +83,80 @@ class ClosingSettings(Settings):
 class EnergySettings(Settings):
     """ContactGrasp's energy."""
 
-    contact_threshold: float = setting("contact from which a point attracts", ge=0, le=1)
-    attraction_points: int = setting("attracting points at most", ge=1, le=10000)
-    repulsion_points: int = setting("repelling points at most", ge=0, le=10000)
+    contact_threshold: float = setting("contact above which a point attracts", ge=0, le=1)
+    attraction_points: int = setting("maximum number of attracting points", ge=1, le=10000)
+    repulsion_points: int = setting("maximum number of repelling points", ge=0, le=10000)
     attraction_weight: float = setting(
-        "of a metre between hand and an attracting point", ge=0, le=100000
+        "per metre between hand and an attracting point", ge=0, le=100000
     )
     repulsion_weight: float = setting(
-        "of a metre between hand and a repelling point", ge=0, le=100000
+        "per metre between hand and a repelling point", ge=0, le=100000
     )
     thumb_weight: float = setting(
-        "of a metre between finger 3 and the nearest attracting point", ge=0, le=100000
+        "per metre between finger 3 and the nearest attracting point", ge=0, le=100000
     )
-    penetration_weight: float = setting("of a metre of hand in object", ge=0, le=100000)
-    self_collision_weight: float = setting("of a metre of link in link", ge=0, le=100000)
-    range_m: float = setting("distance from which terms stay constant", gt=0, le=0.02)
+    penetration_weight: float = setting("per metre of penetration of the object", ge=0, le=100000)
+    self_collision_weight: float = setting(
+        "per metre of penetration between links", ge=0, le=100000
+    )
+    range_m: float = setting("distance above which terms are constant", gt=0, le=0.02)
     repulsion_offset_m: float = setting(
-        "how far the nearest hand point may lie from a repelling point's normal", ge=0, le=0.1
+        "largest distance of the nearest hand point from a repelling point's normal", ge=0, le=0.1
     )
 
 
 class EquilibriumSettings(Settings):
     """Balance of the touching points."""
 
-    friction: float = setting("Coulomb coefficient it is judged with", ge=0, le=5)
+    friction: float = setting("Coulomb coefficient of this measure", ge=0, le=5)
     cone_edges: int = setting("edges of a friction pyramid", ge=3, le=64)
-    contact_m: float = setting("gap up to which points touch", gt=0, le=0.01)
+    contact_m: float = setting("gap below which points touch", gt=0, le=0.01)
     iterations: int = setting("steps of Gilbert's algorithm", ge=1, le=10000)
-    weight: float = setting("of a newton of imbalance", ge=0, le=100000)
+    weight: float = setting("per newton of wrench residual", ge=0, le=100000)
 
 
 class ShapeSettings(Settings):
-    """How hands keep to the shape of their grip."""
+    """How strictly hands keep to the shape of their grip."""
 
-    reach_m: float = setting("gap at which a link no longer pushes", gt=0, le=0.1)
+    reach_m: float = setting("gap above which a link no longer pushes", gt=0, le=0.1)
     closing_weight: float = setting(
-        "length of the closing direction added to the unit normal", ge=0, le=100
+        "weight of the closing direction relative to the unit normal", ge=0, le=100
     )
-    weight: float = setting("of a measure that lacks all of its least", ge=0, le=100000)
-    kept: float = setting("deviation up to which a held hand has kept its grip", ge=0, le=3)
+    weight: float = setting(
+        "cost of a measure that falls short of its minimum by 100 %", ge=0, le=100000
+    )
+    kept: float = setting("deviation below which a held hand has kept its grip", ge=0, le=3)
 
 
 class RefinementSettings(Settings):
     """Random steps around the best candidates."""
 
-    parents: int = setting("candidates that are refined", ge=1, le=1000)
-    rounds: int = setting("how often each is varied", ge=0, le=100)
-    children: int = setting("variations of each in a round", ge=1, le=1000)
-    position_sd_m: float = setting("deviation of the first round", ge=0, le=0.1)
-    rotation_sd_rad: float = setting("deviation of the first round", ge=0, le=1.6)
-    spread_sd_rad: float = setting("deviation of the first round", ge=0, le=1.6)
-    shrink: float = setting("factor of the deviations from round to round", gt=0, le=1)
+    parents: int = setting("number of candidates to refine", ge=1, le=1000)
+    rounds: int = setting("number of rounds of variation", ge=0, le=100)
+    children: int = setting("variations of each per round", ge=1, le=1000)
+    position_sd_m: float = setting("standard deviation in the first round", ge=0, le=0.1)
+    rotation_sd_rad: float = setting("standard deviation in the first round", ge=0, le=1.6)
+    spread_sd_rad: float = setting("standard deviation in the first round", ge=0, le=1.6)
+    shrink: float = setting("factor on the deviations from round to round", gt=0, le=1)
 
 
 class RankingSettings(Settings):
     """Which grasps are tried."""
 
-    tries: int = setting("grasps a session that are tried at most", ge=1, le=100)
-    min_fingers: int = setting("fingers that must touch", ge=1, le=3)
-    contact_m: float = setting("gap up to which a link touches", gt=0, le=0.01)
-    max_depth_m: float = setting("depth beyond which a candidate is not ranked", ge=0, le=0.05)
-    apart_m: float = setting("least difference between tries", ge=0, le=0.2)
-    rotation_length_m: float = setting("what a radian counts in that difference", ge=0, le=1)
+    tries: int = setting("maximum number of grasps tried per session", ge=1, le=100)
+    min_fingers: int = setting("number of fingers that must touch", ge=1, le=3)
+    contact_m: float = setting("gap below which a link touches", gt=0, le=0.01)
+    max_depth_m: float = setting(
+        "penetration depth above which a candidate is not ranked", ge=0, le=0.05
+    )
+    apart_m: float = setting("smallest difference between tries", ge=0, le=0.2)
+    rotation_length_m: float = setting(
+        "length equivalent of a radian in that difference", ge=0, le=1
+    )
 
 
 class SynthesisSettings(Settings):
-    """Grasps of the hand, one a session."""
+    """Grasps of the hand, one per session."""
 
     hand: HandSampling
     candidates: CandidateSettings
