@@ -7,6 +7,14 @@
     plan = grasptypes.Planner().plan(mug, "use", ["Power Sphere"])
 
 What stands here is imported when it is used, so that `import grasptypes` costs next to nothing.
+
+The commands and the workflow compute with one thread and the instructions that all processors with
+AVX2 have, so that the last digit does not depend on the machine. A process that has imported NumPy
+already keeps its own settings; to have the same, start it with
+
+    from grasptypes.runtime import pin_runtime
+
+    pin_runtime()
 """
 
 from importlib import import_module
@@ -20,10 +28,13 @@ if TYPE_CHECKING:
     from grasptypes.objects.loading import load_object
     from grasptypes.objects.object_geometry import ObjectGeometry
     from grasptypes.planning.planner import Plan, Planner
-    from grasptypes.predictors.prediction import Predictor
+    from grasptypes.predictors.prediction import Answer, Predictor
+
+    __version__: str
 
 __all__ = [
     "GRASP_TYPES",
+    "Answer",
     "Grasp",
     "InputError",
     "ObjectGeometry",
@@ -34,8 +45,8 @@ __all__ = [
     "label",
     "load_object",
 ]
-
 _HOMES = {
+    "Answer": "predictors.prediction",
     "GRASP_TYPES": "labels.grasp_type",
     "Grasp": "labels.grasp",
     "InputError": "errors",
@@ -53,6 +64,10 @@ def __getattr__(name: str) -> Any:
         return version("grasptypes")
     if name not in _HOMES:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    if name in ("Planner", "Predictor"):
+        # Mesa and torch's compiler each bring an LLVM, and a process that draws and predicts
+        # crashes when torch's comes second.
+        import_module("torchvision")
     return getattr(import_module(f"{__name__}.{_HOMES[name]}"), name)
 
 

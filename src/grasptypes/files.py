@@ -23,11 +23,16 @@ ZIP_EPOCH = (1980, 1, 1, 0, 0, 0)
 TEMPORARY = ".tmp"
 
 
+def staging_name(name: str) -> str:
+    """What a file or folder is called while it is being written."""
+    return f".{name}.{os.getpid()}{TEMPORARY}"
+
+
 def write_bytes(path: str | Path, content: bytes) -> None:
     """Write ``content`` to ``path`` through a temporary file and an atomic rename."""
     path = Path(path)
     path.parent.mkdir(parents=True, exist_ok=True)
-    temporary = path.with_name(f".{path.name}.{os.getpid()}{TEMPORARY}")
+    temporary = path.with_name(staging_name(path.name))
     try:
         temporary.write_bytes(content)
         os.replace(temporary, path)
@@ -43,8 +48,13 @@ def write_text(path: str | Path, content: str) -> None:
 
 
 def write_json(path: str | Path, content: Any) -> None:
-    """Write JSON with sorted keys and a final newline; NaN and infinity are rejected."""
-    write_text(path, json.dumps(content, indent=2, sort_keys=True, allow_nan=False) + "\n")
+    """Write `json_text` of `content`."""
+    write_text(path, json_text(content))
+
+
+def json_text(content: Any) -> str:
+    """JSON with sorted keys and a final newline; NaN and infinity are rejected."""
+    return json.dumps(content, indent=2, sort_keys=True, allow_nan=False) + "\n"
 
 
 def zip_bytes(members: Mapping[str, bytes]) -> bytes:

@@ -47,7 +47,7 @@ CASES = [
     asked("an unknown option", (*ASK, "--colour"), "--colour"),
     asked("neither picture nor mesh", ("predict", "--task", "use"), "--image --object is required"),
     asked("an unknown unit", (*ASK, "--unit", "ell"), "--unit", "'ell'"),
-    asked("a unit for a picture", (*ASK, "--unit", "mm"), "--unit: mm: is for a mesh"),
+    asked("a unit for a picture", (*ASK, "--unit", "mm"), "--unit: mm: is for meshes"),
     asked("a picture that is not there", ("predict", "--image", "no.png"), "no.png: no such file"),
     asked("another folder", (*ASK, "--folder", "no"), "no/params.yaml", "--folder"),
     asked("a drawing that is no PNG", (*ASK, "--picture", "cup.jpg"), "cup.jpg", ".png"),
@@ -55,7 +55,7 @@ CASES = [
     asked(
         "a drawing among the pictures",
         ("predict", "--image", ".", "--task", "use", "--picture", "answer.png"),
-        "answer.png: lies among the pictures",
+        "answer.png: is in the folder of input images",
     ),
     Case(
         "command",
@@ -67,7 +67,7 @@ CASES = [
     asked(
         "a drawing where none can be made",
         (*ASK, "--picture", "/proc/cup.png"),
-        "/proc/cup.png: cannot be made",
+        "/proc/cup.png: cannot be created",
     ),
     asked("an unknown model", (*ASK, "--model", "e"), "--model: e", "task_vector"),
     asked("unknown labels", (*ASK, "--labels", "../.."), "--labels: ../..", "simulated, published"),

@@ -8,7 +8,7 @@ import numpy as np
 import pandas as pd
 import torch
 import yaml
-from tests.unit.settings import RAW
+from tests.unit.settings import PARAMS, RAW
 
 from grasptypes.labels.samples import COUNTS, TYPES, samples_from_counts
 from grasptypes.predictors.backbone import KINDS, untrained_backbone
@@ -18,7 +18,7 @@ from grasptypes.predictors.folds import split
 from grasptypes.predictors.predictor import VARIANTS, Architecture, BatchedMLP
 from grasptypes.predictors.predictor_files import ModelCard, write_predictor
 from grasptypes.predictors.weights import Weights, weights_file
-from grasptypes.settings.predictors import FineTuning, PredictorSettings
+from grasptypes.settings.predictors import FineTuning
 from grasptypes.yaml_files import merge
 
 ROOT = Path(__file__).parents[2]
@@ -26,19 +26,13 @@ SHIFTS = {"use": 10, "handoff": -10, "wash": 20}
 TASKS = {"use": 10, "handoff": -10, "show": 0}
 OBJECTS = ("apple", "mug", "pan", "knife")
 VIEWS = 20
-SETTINGS = PredictorSettings(
-    seeds=1,
+SETTINGS = PARAMS.predictors.changed(
     hidden=(32, 24, 16),
     components=12,
-    whitening=0.5,
     epochs=80,
     batch=32,
-    learning_rate=0.02,
-    warm_up=0.25,
     weight_decay=0.01,
     dropout=0.0,
-    probability_weight=2.0,
-    finetune="none",
     finetuning=FineTuning(last_blocks=1, learning_rate=1e-4, epochs=2, batch=8),
 )
 

@@ -51,6 +51,6 @@ def main(arguments: Sequence[str] | None = None) -> None:
         where = f"{error.filename}: " if error.filename else ""
         sys.exit(f"error: {where}{error.strerror or error}")
     except (MemoryError, BrokenProcessPool):  # the system kills a process that asks for too much
-        sys.exit("error: the memory is too short: end other programs, or plan with --jobs 1")
+        sys.exit("error: not enough memory: close other programs, or plan with --jobs 1")
     except KeyboardInterrupt:
         sys.exit(130)

@@ -6,20 +6,12 @@ Heavy libraries are imported once the arguments are known to be in order.
 from __future__ import annotations
 
 import argparse
-import os
-import shutil
 import sys
-import tempfile
 from pathlib import Path
 
-from grasptypes.commands.settings import (
-    add_folder,
-    check_place,
-    folder_params,
-    printable,
-    staging_name,
-)
+from grasptypes.commands.settings import add_folder, check_place, printable
 from grasptypes.errors import InputError
+from grasptypes.files import json_text
 from grasptypes.objects.units import UNITS_M
 
 # `GRASP_TYPES` without the last, as the help lists them at no cost; a test holds them in step.
@@ -58,28 +50,20 @@ def run(args: argparse.Namespace) -> str:
     Raises:
         InputError: anything wrong with the arguments; then nothing is written.
     """
-    folder_params(args.folder)
     output = args.output or Path(f"{args.object.stem}_{args.task}_grasps")
     _check_output(output)
 
-    from grasptypes.objects.contact_scan import read_contact_scan
     from grasptypes.objects.loading import load_object
     from grasptypes.planning.plan_contacts import MeasuredMap
-    from grasptypes.planning.plan_files import write_plan
     from grasptypes.planning.plan_summary import report, summarise
-    from grasptypes.planning.planner import Planner, known_type
+    from grasptypes.planning.planner import Planner
 
     planner = Planner(args.folder, jobs=args.jobs, tell=_tell)
-    planner.check_task(args.task)
-    types = [known_type(text) for text in args.type]
-    if args.mass_kg is not None:
-        planner.check_mass(args.mass_kg, "--mass-kg")
-    measured = None
-    if args.contact_map:  # a bad file is told before anything is computed
-        measured = MeasuredMap(args.contact_map, UNITS_M[args.unit])
-        read_contact_scan(*measured)
-    if not types:
-        planner.load_predictor()
+    # Whatever is wrong is told before anything is computed.
+    planner.check_request(args.task, args.type, args.mass_kg)
+    scan = MeasuredMap(args.contact_map, UNITS_M[args.unit]) if args.contact_map else None
+    if scan:
+        scan.read()
     geometry = load_object(
         args.object,
         args.unit,
@@ -87,38 +71,23 @@ def run(args: argparse.Namespace) -> str:
         name=printable(args.object.stem),
         settings=planner.params.objects,
     )
-    plan = planner.plan(geometry, args.task, types, contact_map=measured, sessions=args.sessions)
-    with tempfile.TemporaryDirectory() as work:
-        written = Path(work, "written")
-        written.mkdir()
-        write_plan(plan, written, planner.params)
-        _move(written, output)
+    plan = planner.plan(geometry, args.task, args.type, contact_map=scan, sessions=args.sessions)
+    plan.write(output)
+    summary = summarise(plan)
     if args.json:
-        return (output / "plan.json").read_text(encoding="utf-8")
-    return report(summarise(plan)) + f"written to {printable(str(output))}\n"
+        return json_text(summary)
+    return report(summary) + f"written to {printable(str(output))}\n"
 
 
 def _check_output(folder: Path) -> None:
-    """Refuse the current folder, one with something in it, and a place where none can be made."""
+    """Reject the current folder, one that is not empty, and a place where none can be created."""
     if folder.resolve() == Path.cwd():
-        raise InputError(folder, "", "is the current folder; name another with --output")
+        raise InputError(folder, "", "is the current folder; name another folder with --output")
     if folder.exists() and (not folder.is_dir() or any(folder.iterdir())):
-        raise InputError(folder, "", "is there already and not empty; name another with --output")
+        raise InputError(
+            folder, "", "already exists and is not empty; name another folder with --output"
+        )
     check_place(folder)
-
-
-def _move(written: Path, output: Path) -> None:
-    """Put the finished folder in its place in one step."""
-    output = output.resolve()
-    output.parent.mkdir(parents=True, exist_ok=True)
-    staged = output.with_name(staging_name(output.name))
-    try:
-        shutil.copytree(written, staged)
-        os.replace(staged, output)
-    except shutil.Error as error:  # holds a triple for every file that could not be copied
-        raise InputError(output, "", f"cannot be written: {error.args[0][0][-1]}") from error
-    finally:
-        shutil.rmtree(staged, ignore_errors=True)
 
 
 def _tell(line: str) -> None:
@@ -135,5 +104,5 @@ def _number(text: str) -> float:
 
 def _count(text: str) -> int:
     if not text.isdecimal() or int(text) < 1:
-        raise argparse.ArgumentTypeError(f"{text} is not a whole number from 1 up")
+        raise argparse.ArgumentTypeError(f"{text} is not a positive integer")
     return int(text)

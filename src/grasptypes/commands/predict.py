@@ -1,4 +1,4 @@
-"""Predict the grasp types of a picture, a folder of pictures, or a mesh.
+"""Predict the grasp types of an image, a folder of images, or a mesh.
 
 Heavy libraries are imported once the arguments are known to be in order.
 """
@@ -11,26 +11,29 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from grasptypes.commands.settings import add_folder, check_target, folder_params, printable
+from grasptypes.commands.settings import add_folder, check_target, printable
 from grasptypes.errors import InputError
 from grasptypes.objects.units import UNITS_M
 from grasptypes.renders.photos import check_photo, photo_files, read_photo
+from grasptypes.settings.params import checkout_params
 
-# More rows than these make a picture that no viewer shows.
+# A figure with more rows is too tall for image viewers.
 MAX_ROWS = 40
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The options of `predict`."""
     shown = parser.add_mutually_exclusive_group(required=True)
-    shown.add_argument("--image", type=Path, help="a picture, or a folder of them")
+    shown.add_argument("--image", type=Path, help="an image, or a folder of images")
     shown.add_argument("--object", type=Path, help="a mesh (STL, OBJ, PLY, GLB), seen from around")
     parser.add_argument("--unit", choices=UNITS_M, help="of the mesh (default: m)")
     parser.add_argument("--task", help="what the object is grasped for, e.g. use")
     parser.add_argument("--model", help="a, b, c, d (row of Table I) or its name")
     parser.add_argument("--labels", help="labels it was trained on: simulated or published")
     parser.add_argument("--json", action="store_true", help="for programs")
-    parser.add_argument("--picture", type=Path, help="PNG to draw pictures and bars to")
+    parser.add_argument(
+        "--picture", type=Path, help="PNG file for a figure of the images and their answers"
+    )
     add_folder(parser)
 
 
@@ -40,25 +43,26 @@ def run(args: argparse.Namespace) -> str:
     Raises:
         InputError: anything wrong with the arguments; then nothing is written.
     """
-    limits = folder_params(args.folder).predict.photos
+    params = checkout_params(args.folder)
+    limits = params.predict.photos
     if args.image and args.unit:
-        raise InputError("--unit", args.unit, "is for a mesh (--object): a picture has no unit")
+        raise InputError("--unit", args.unit, "is for meshes (--object): an image has no unit")
     files = photo_files(args.image) if args.image else []
     if args.picture:
         check_target(args.picture, ".png")
         _check_apart(args.picture, args.image, files)
         if len(files) > MAX_ROWS:
-            raise InputError(args.image, "", f"--picture shows {MAX_ROWS} pictures at most")
-    # Bad pictures are told before torch takes its seconds.
+            raise InputError(args.image, "", f"--picture shows at most {MAX_ROWS} images")
+    # Bad images are reported before torch takes seconds to load.
     if len(files) == 1:
         read_photo(files[0], limits)
     for file in files:
         check_photo(file, limits)
 
-    from grasptypes.predictors.prediction import Predictor, check_task, report
+    from grasptypes.predictors.prediction import Predictor, report
 
-    predictor = Predictor.load(args.folder, labels=args.labels, model=args.model)
-    task = check_task(predictor.card, args.task)
+    predictor = Predictor.load(args.folder, labels=args.labels, model=args.model, params=params)
+    task = predictor.check_task(args.task)
     shown: dict[str, Any] = {printable(file.name): file for file in files}
     if args.object:
         from grasptypes.objects.loading import own_object
@@ -78,9 +82,11 @@ def run(args: argparse.Namespace) -> str:
 
 
 def _check_apart(target: Path, image: Path | None, files: Sequence[Path]) -> None:
-    """Refuse a drawing that would replace a picture, or be one of the folder's the next time."""
+    """Reject a figure that would replace an image, or be one of the folder's the next time."""
     place = target.resolve()
     if place in [file.resolve() for file in files]:
-        raise InputError(target, "", "is one of the pictures; name another file with --picture")
+        raise InputError(target, "", "is one of the input images; name another file with --picture")
     if image and image.is_dir() and place.parent == image.resolve():
-        raise InputError(target, "", "lies among the pictures; name another place with --picture")
+        raise InputError(
+            target, "", "is in the folder of input images; name another place with --picture"
+        )

@@ -1,27 +1,19 @@
-"""What the commands share: the folder whose parameters and models they use, names, targets."""
+"""What the commands share: an option, names as they are shown, and checks of targets."""
 
 from __future__ import annotations
 
 import argparse
 import errno
-import os
 import tempfile
 from pathlib import Path
 
 from grasptypes.errors import InputError
-from grasptypes.settings.params import Params, read_params
-
-PARAMS = "params.yaml"
+from grasptypes.files import staging_name
 
 
 def printable(name: str) -> str:
     """A file's name as it can be shown and written: "?" for what is no visible character."""
     return "".join(letter if letter.isprintable() else "?" for letter in name)
-
-
-def staging_name(name: str) -> str:
-    """What a file or folder is called until it is finished."""
-    return f".{name}.{os.getpid()}.tmp"
 
 
 def add_folder(parser: argparse.ArgumentParser) -> None:
@@ -34,19 +26,8 @@ def add_folder(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def folder_params(folder: Path) -> Params:
-    """The parameters of a checkout.
-
-    Raises:
-        InputError: there are none, or wrong ones.
-    """
-    if not (folder / PARAMS).is_file():
-        raise InputError(folder / PARAMS, "", "no such file; name a checkout with --folder")
-    return read_params(folder / PARAMS)
-
-
 def check_target(path: Path, suffix: str) -> None:
-    """Refuse a file that could not be written before anything is computed.
+    """Reject a file that cannot be written, before anything is computed.
 
     Raises:
         InputError: another suffix, a folder, or a place where nothing can be written.
@@ -59,7 +40,7 @@ def check_target(path: Path, suffix: str) -> None:
 
 
 def check_place(path: Path) -> None:
-    """Refuse a file or folder that could not be made, by a try that leaves nothing behind.
+    """Reject a file or folder that cannot be created, by a trial that leaves nothing behind.
 
     Raises:
         InputError: the nearest folder above it that is there cannot be written, or a name is
@@ -73,5 +54,7 @@ def check_place(path: Path) -> None:
                 Path(trial, staging_name(name)).mkdir(exist_ok=True)
     except OSError as error:
         long = error.errno == errno.ENAMETOOLONG
-        reason = "the name is too long" if long else f"{above} is no folder to write to"
-        raise InputError(path, "", f"cannot be made: {reason}") from error
+        reason = (
+            "the name is too long" if long else f"{above} is not a folder that can be written to"
+        )
+        raise InputError(path, "", f"cannot be created: {reason}") from error

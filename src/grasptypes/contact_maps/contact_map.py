@@ -167,7 +167,8 @@ def draw_session(task: MapTask, rows: Sequence[AffinityRow], number: int) -> Ses
     raise InputError(
         settings.affinities,
         f"{key[0]}, {key[1]}, {'+'.join(row.parts) or WHOLE}, {row.grip} {row.approach}",
-        f"{settings.tries} people could not hold it so: thumb and fingers found no two sides",
+        f"{settings.tries} people could not hold it this way: thumb and fingers found no opposing "
+        "sides",
     )
 
 

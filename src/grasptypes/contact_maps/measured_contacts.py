@@ -42,20 +42,21 @@ def read_probability(path: str | Path, unit_m: float, task: MapTask) -> Array:
     """
     scan, measured = read_contact_scan(path, task.scale * unit_m), task.settings.measured
     if np.nanmin(scan.intensity) == np.nanmax(scan.intensity):
-        raise InputError(path, "red", "is the same wherever it is not 0: nothing is warmer")
+        raise InputError(path, "red", "is the same wherever it is not 0: no place is warmer")
     seen = transferred(scan, task.points.points_m, measured)
     share = float(np.isfinite(seen).mean())
     if share < measured.min_seen_share:
         raise InputError(
             path,
             "",
-            f"shows {share:.0%} of the object (its vertices and {measured.max_gap_m} m around), "
+            f"covers {share:.0%} of the object (within {measured.max_gap_m} m of its vertices); "
             f"{measured.min_seen_share:.0%} are needed: is it in the object's unit and frame?",
         )
     probability = np.nan_to_num(seen, nan=0.0)
     threshold = task.settings.threshold
     if (probability >= threshold).sum() < MIN_WARM_POINTS:
-        raise InputError(path, "red", f"is warm (probability {threshold} or more) almost nowhere")
+        said = f"has almost no warm vertices (probability {threshold} or more)"
+        raise InputError(path, "red", said)
     return probability
 
 
@@ -93,7 +94,7 @@ def map_measured_contacts(task: MapTask, probability: Array, path: str | Path) -
                 path,
                 "",
                 f"no hand can hold {task.name[0]} where it is to be touched: in {count} "
-                "placements thumb and fingers found no two sides",
+                "placements thumb and fingers found no opposing sides",
             )
         people.append(person)
     return of_sessions(task, probability, people)

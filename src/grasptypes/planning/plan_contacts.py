@@ -14,6 +14,7 @@ from grasptypes.contact_maps.contact_evidence import GRIP_OF_TYPE
 from grasptypes.contact_maps.contact_map import ContactMap, MapTask, Session, of_sessions
 from grasptypes.contact_maps.measured_contacts import draw_measured_session, read_probability
 from grasptypes.errors import InputError
+from grasptypes.objects.contact_scan import ContactScan, read_contact_scan
 
 
 class MeasuredMap(NamedTuple):
@@ -22,6 +23,10 @@ class MeasuredMap(NamedTuple):
     path: Path
     unit_m: float
     """Length of its unit."""
+
+    def read(self) -> ContactScan:
+        """Its points; raises InputError if the file cannot be used."""
+        return read_contact_scan(*self)
 
 
 class PlanContacts(NamedTuple):
@@ -70,8 +75,8 @@ def plan_contacts(
             source,
             "",
             f"no hand can hold it {where} with the grips {', '.join(grips)}: in "
-            f"{task.settings.sessions} sessions thumb and fingers found no two sides; ask for "
-            f"other types (--type), or check the unit (--unit): it is {size_m:.3g} m long",
+            f"{task.settings.sessions} sessions thumb and fingers found no opposing sides; "
+            f"request other types (--type), or check the unit (--unit): it is {size_m:.3g} m long",
         )
     return PlanContacts(of_sessions(task, probability, list(people.values())), tuple(people))
 

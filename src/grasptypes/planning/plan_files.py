@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import shutil
 from pathlib import Path
 
@@ -13,7 +14,7 @@ from scipy.spatial.transform import RigidTransform
 from grasptypes.exchange import dexgraspbench, graspit_world, multigrippergrasp
 from grasptypes.exchange.published_csv import format_configuration
 from grasptypes.exchange.records import PosedHands
-from grasptypes.files import write_bytes, write_json
+from grasptypes.files import staging_name, write_bytes, write_json
 from grasptypes.hand import configuration
 from grasptypes.labels.dataset import DATASET_SCHEMA, VALID, dataset_columns
 from grasptypes.labels.grasp_type import GRASP_TYPES
@@ -50,20 +51,32 @@ ATTEMPT_TABLE_SCHEMA = pa.DataFrameSchema(
 )
 
 
-def write_plan(plan: Plan, folder: Path, params: Params) -> None:
-    """Write everything there is to a new folder: tables, `plan.json`, formats and a picture."""
-    shown = params.plan.shown
-    valid = plan.grasps[plan.grasps.valid]
-    pictured = plan.grasps.valid & (np.arange(len(plan.grasps)) < shown)
-    table = plan.grasps.assign(image=np.where(pictured, PICTURE, ""))
+def write_plan(plan: Plan, folder: Path) -> None:
+    """Write everything there is to a new folder, which appears whole or not at all."""
+    folder = folder.resolve()
+    staged = folder.with_name(staging_name(folder.name))
+    staged.mkdir(parents=True)
+    try:
+        _write_files(plan, staged)
+        os.replace(staged, folder)
+    finally:
+        shutil.rmtree(staged, ignore_errors=True)
+
+
+def _write_files(plan: Plan, folder: Path) -> None:
+    """Tables, `plan.json`, the object, formats and a picture."""
+    shown = plan.params.plan.shown
+    valid = plan.ranking[plan.ranking.valid]
+    pictured = plan.ranking.valid & (np.arange(len(plan.ranking)) < shown)
+    table = plan.ranking.assign(image=np.where(pictured, PICTURE, ""))
     write_table(dataset_columns(table), folder / "grasps.csv", DATASET_SCHEMA)
     write_table(_attempt_table(plan.attempts), folder / "attempts.csv", ATTEMPT_TABLE_SCHEMA)
+    (folder / "object").mkdir()
     for name in (VISUAL, COLLISION, PROPERTIES):
-        (folder / "object").mkdir(exist_ok=True)
         shutil.copyfile(plan.geometry.folder / name, folder / "object" / name)
     if len(valid):
         write_formats(posed(valid), folder)
-        picture = draw_best(valid.head(shown), plan.geometry.visual, params)
+        picture = draw_best(valid.head(shown), plan.geometry.visual, plan.params)
         write_bytes(folder / PICTURE, picture)
     write_json(folder / "plan.json", summarise(plan))
 

@@ -11,7 +11,7 @@ from grasptypes.planning.planner import Plan
 
 def summarise(plan: Plan) -> dict[str, Any]:
     """Everything there is to say."""
-    grasps, types, properties = plan.grasps, plan.request.types, plan.geometry.properties
+    grasps, types, properties = plan.ranking, plan.request.types, plan.geometry.properties
     wanted = grasps.grasp_type.isin(types)
     return {
         "object": properties.object,

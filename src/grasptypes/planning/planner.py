@@ -23,7 +23,7 @@ from grasptypes.objects.object_geometry import ObjectGeometry
 from grasptypes.planning.plan_contacts import MeasuredMap, PlanContacts, grips_of, plan_contacts
 from grasptypes.renders.mesh_views import MESH_WORD
 from grasptypes.seeds import seed
-from grasptypes.settings.params import Params, read_params
+from grasptypes.settings.params import Params, checkout_params
 from grasptypes.synthesis.trials import SynthesisTask, synthesize
 
 if TYPE_CHECKING:
@@ -61,23 +61,37 @@ class Plan:
     """What came out for one object and task.
 
     Attributes:
+        params: it was made with.
         contact_map: name of the measured map that was used, if any.
         attempts: one row a hand that was tried, labelled: the columns of `grasps.ATTEMPT_SCHEMA`,
             those of `dataset.label_grasps`, `grip` and `tries`.
-        grasps: the chosen ones of them, one a session, best first.
+        ranking: the chosen ones of them, one a session, best first.
     """
 
     geometry: ObjectGeometry
     task: str
     request: GraspTypeRequest
+    params: Params
     contact_map: str | None
     attempts: pd.DataFrame
-    grasps: pd.DataFrame
+    ranking: pd.DataFrame
 
     @property
-    def best(self) -> list[Grasp]:
-        """The grasps as objects, best first."""
-        return grasps_of(self.grasps, self.geometry)
+    def grasps(self) -> list[Grasp]:
+        """One grasp a session, best first; those that failed the physics test come last."""
+        return grasps_of(self.ranking, self.geometry)
+
+    def write(self, folder: str | Path) -> None:
+        """Write tables, `plan.json`, the formats of the field and a picture to a new folder.
+
+        The folder appears whole or not at all.
+
+        Raises:
+            OSError: it cannot be written, or is there already and not empty.
+        """
+        from grasptypes.planning.plan_files import write_plan
+
+        write_plan(self, Path(folder))
 
 
 class Planner:
@@ -100,7 +114,7 @@ class Planner:
         tell: Callable[[str], None] = lambda line: None,
     ) -> None:
         self.folder = Path(folder)
-        self.params = read_params(self.folder / "params.yaml")
+        self.params = checkout_params(self.folder)
         self.jobs = jobs
         self.tell = tell
         self._predictor: Predictor | None = None
@@ -127,57 +141,61 @@ class Planner:
             InputError: an unknown task or type, a mass that the hand cannot lift, a contact map
                 that cannot be used, or an object that no hand can hold.
         """
-        self.check_task(task)
-        self.check_mass(object.properties.mass_kg, object.source or object.name)
-        request = GraspTypeRequest(tuple(known_type(name) for name in types))
-        if not request.types:
-            request = self._predicted(object, task)
+        source = object.source or object.name
+        wanted = self.check_request(task, types, object.properties.mass_kg, source)
+        request = GraspTypeRequest(wanted) if wanted else self._predicted(object, task)
         settings = self.params.contact_maps.changed(sessions=sessions or self.params.plan.sessions)
         name, seed_number = (MESH_WORD, task), self.params.seed
         drawn = MapTask.of_object(object, name, seed_number, settings)
-        source = object.source or object.name
         contacts = plan_contacts(drawn, contact_map, grips_of(request.types), source)
         if left_out := settings.sessions - len(contacts.numbers):
             self.tell(
                 f"left out {left_out} of {settings.sessions} ways of holding: "
-                "no place has two sides for them"
+                "no place has opposing sides for them"
             )
         self.tell(f"searching for {', '.join(request.types)} of {object.name} for {task}")
         context = PlanningContext(object, task, MESH_WORD, self.folder / URDF, self.params)
-        attempts, grasps = plan_sessions(context, contacts, request.types, self.jobs, self.tell)
+        attempts, ranking = plan_sessions(context, contacts, request.types, self.jobs, self.tell)
         used = contact_map.path.name if contact_map else None
-        return Plan(object, task, request, used, attempts, grasps)
+        return Plan(object, task, request, self.params, used, attempts, ranking)
 
-    def check_task(self, task: str) -> None:
-        """Raise InputError for a task that the parameters do not have."""
+    def check_request(
+        self, task: str, types: Sequence[str], mass_kg: float | None, source: str = ""
+    ) -> tuple[str, ...]:
+        """The wanted types, spelled as in `GRASP_TYPES`, if a plan can be made for all of this.
+
+        Args:
+            mass_kg: of the object, if it is known.
+            source: the mesh, once it is read.
+
+        Raises:
+            InputError: an unknown task or type, a mass that the hand cannot lift or that nothing
+                weighs, or no type where no trained predictor can choose some.
+        """
         if task not in self.params.tasks:
             allowed = ", ".join(self.params.tasks)
             raise InputError("--task", task, f"unknown; allowed: {allowed}")
-
-    def check_mass(self, mass_kg: float, source: str) -> None:
-        """Raise InputError for what the hand cannot lift, and for what nothing weighs."""
         low, high = self.params.plan.min_mass_kg, self.params.plan.max_mass_kg
-        if not low <= mass_kg <= high:
-            message = f"is {mass_kg:.3g} kg, allowed are {low:g} to {high:g} kg (--mass-kg)"
-            raise InputError(source, "mass", message)
+        if mass_kg is not None and not low <= mass_kg <= high:
+            allowed = f"must be {low:g} to {high:g} kg"
+            if not source:
+                raise InputError("--mass-kg", f"{mass_kg:g}", allowed)
+            said = f"is {mass_kg:.3g} kg (as a solid of water, unless it is given); {allowed}"
+            raise InputError(source, "--mass-kg", said)
+        if not types and self._predictor is None:
+            from grasptypes.predictors.prediction import Predictor
 
-    def load_predictor(self) -> Predictor:
-        """The predictor that chooses types; raises InputError if it is not trained."""
-        from grasptypes.predictors.prediction import Predictor
-
-        if self._predictor is None:
-            self._predictor = Predictor.load(self.folder)
-        return self._predictor
+            self._predictor = Predictor.load(self.folder, params=self.params)
+            self._predictor.check_task(task)
+        return tuple(known_type(name) for name in types)
 
     def _predicted(self, geometry: ObjectGeometry, task: str) -> GraspTypeRequest:
         """The types that the predictor chooses for the object; the likeliest if none is."""
-        from grasptypes.predictors.prediction import wanted_types
-
-        predictor = self.load_predictor()
-        views = self.params.predict.views
-        answer = predictor.predict(geometry, task, name=f"{geometry.name}, mean of {views} views")
-        types = wanted_types(answer, predictor.card.types)
-        return GraspTypeRequest(tuple(types), predictor.describe([answer], task))
+        assert self._predictor is not None  # `check_request` has loaded it
+        name = f"{geometry.name}, mean of {self.params.predict.views} views"
+        answer = self._predictor.predict(geometry, task, name=name)
+        described = self._predictor.describe([answer], task)
+        return GraspTypeRequest(tuple(answer.grasp_types), described)
 
 
 def known_type(text: str) -> str:

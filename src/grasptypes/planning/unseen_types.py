@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 import pandas as pd
-from scipy.special import expit, softmax
 
 from grasptypes.labels.samples import TYPES
 from grasptypes.predictors.leaving_out import members_by_object
-from grasptypes.predictors.prediction import Answer, wanted_types
+from grasptypes.predictors.prediction import Answer
 from grasptypes.predictors.problem import LearningProblem
 from grasptypes.predictors.protocol import try_splits
 
@@ -37,5 +36,4 @@ def unseen_types(
 
 def _types(rows: pd.DataFrame) -> list[str]:
     logits = rows[[f"logit_{kind}" for kind in TYPES]].to_numpy()
-    answer = Answer("", softmax(logits, axis=-1).mean(axis=0), expit(logits).mean(axis=0))
-    return wanted_types(answer, TYPES)
+    return Answer.of_logits("", TYPES, logits).grasp_types

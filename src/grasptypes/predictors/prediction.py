@@ -1,10 +1,12 @@
-"""Asking a trained predictor about new pictures, and what it answers."""
+"""Asking a trained predictor about new images, and what it answers."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
+from importlib import import_module
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from scipy.special import expit, softmax
@@ -23,26 +25,45 @@ from grasptypes.predictors.weights import find_weights
 from grasptypes.renders.mesh_views import mesh_views, views
 from grasptypes.renders.photos import read_photo
 from grasptypes.settings.objects import OwnObject
-from grasptypes.settings.params import Params, read_params
+from grasptypes.settings.params import Params, checkout_params
 
 # What a model may have been trained on; its folder below models/.
 LABELS = ("simulated", "published")
 MODEL_OF_ROW = {variant.row: name for name, variant in VARIANTS.items()}
 
 
-class Answer(NamedTuple):
-    """What a predictor says of one picture, or of several views of one object together."""
+@dataclass(frozen=True)
+class Answer:
+    """What a predictor says of one image, or of several views of one object together.
+
+    Attributes:
+        name: of what was shown.
+        types: (K) grasp types as cards spell them.
+        probability: (K,) softmax; sums to one.
+        sigmoid: (K,) how sure it is of each type by itself.
+    """
 
     name: str
+    types: Sequence[str]
     probability: np.ndarray
-    """(types,) softmax; sums to one."""
     sigmoid: np.ndarray
-    """(types,) how sure it is of each type by itself."""
+
+    @classmethod
+    def of_logits(cls, name: str, types: Sequence[str], logits: np.ndarray) -> Answer:
+        """The mean over images of the answers to each, from logits (images, K)."""
+        return cls(name, types, softmax(logits, axis=-1).mean(axis=0), expit(logits).mean(axis=0))
 
     @property
     def chosen(self) -> np.ndarray:
-        """(types,) whether a type is chosen (paper, section IV-B)."""
+        """(K,) whether a type is chosen (paper, section IV-B)."""
         return self.sigmoid > SIGMOID_THRESHOLD
+
+    @property
+    def grasp_types(self) -> list[str]:
+        """The chosen types as `GRASP_TYPES` spells them; the likeliest if none is chosen."""
+        likeliest = self.probability == self.probability.max()
+        found = self.chosen if self.chosen.any() else likeliest
+        return [spelled(kind) for kind, yes in zip(self.types, found, strict=True) if yes]
 
 
 def predictor_paths(root: str | Path, labels: str, model: str) -> tuple[Path, Path]:
@@ -61,12 +82,12 @@ def predictor_paths(root: str | Path, labels: str, model: str) -> tuple[Path, Pa
     if labels not in LABELS:
         raise InputError("--labels", labels, f"unknown; allowed: {', '.join(LABELS)}")
     folder = Path("models", labels, name)
-    paths = tuple(Path(root) / folder / f"predictor.{end}" for end in ("safetensors", "json"))
-    for path in paths:
+    tensors, card = (Path(root, folder, f"predictor.{end}") for end in ("safetensors", "json"))
+    for path in (tensors, card):
         if not path.is_file():
             command = f"snakemake -j2 {folder}/predictor.json"
             raise InputError(path, "", f"is not trained yet; run: {command} (or: dvc pull models)")
-    return paths[0], paths[1]
+    return tensors, card
 
 
 class Predictor:
@@ -82,7 +103,12 @@ class Predictor:
 
     @classmethod
     def load(
-        cls, folder: str | Path = ".", *, labels: str | None = None, model: str | None = None
+        cls,
+        folder: str | Path = ".",
+        *,
+        labels: str | None = None,
+        model: str | None = None,
+        params: Params | None = None,
     ) -> Predictor:
         """The model with the backbone's weights of this machine; no host is asked.
 
@@ -90,11 +116,13 @@ class Predictor:
             folder: a checkout, whose parameters and models are used.
             labels: source of the labels it was trained on; by default that of the parameters.
             model: its name or the letter of its row in Table I; by default that of the parameters.
+            params: other parameters than the checkout's.
 
         Raises:
             InputError: it is not trained, or the weights here are not those it was trained with.
         """
-        params = read_params(Path(folder) / "params.yaml")
+        import_module("torchvision")  # before OpenGL: see `renders.renderer`
+        params = params or checkout_params(folder)
         chosen = labels or params.predict.labels, model or params.predict.model
         tensors, card = predictor_paths(folder, *chosen)
         read_card(card)  # a damaged card is told before missing weights
@@ -123,9 +151,8 @@ class Predictor:
         Raises:
             InputError: an unknown task, or a photo that cannot be used.
         """
-        task = check_task(self.card, task)
-        logits = self.model.logits(self.images(shown), task)
-        return Answer(name, softmax(logits, axis=-1).mean(axis=0), expit(logits).mean(axis=0))
+        logits = self.model.logits(self.images(shown), self.check_task(task))
+        return Answer.of_logits(name, self.card.types, logits)
 
     def images(self, shown: ObjectGeometry | np.ndarray | str | Path) -> np.ndarray:
         """What the model sees of it: (N, H, W, 3) uint8."""
@@ -139,84 +166,65 @@ class Predictor:
         """As `images`, of a user's mesh that need not be prepared for planning."""
         return mesh_views(own, self.params)
 
+    def check_task(self, task: str | None) -> str:
+        """The task to ask for; models that do not see the task need none.
+
+        Raises:
+            InputError: none given where one is needed, or an unknown one.
+        """
+        known = self.card.tasks
+        if task is None and not self.card.sees_task:
+            return known[0]
+        if task not in known:
+            said = "is needed" if task is None else "unknown"
+            raise InputError("--task", task or "", f"{said}; allowed: {', '.join(known)}")
+        return task
+
     def describe(self, answers: Sequence[Answer], task: str | None) -> dict[str, Any]:
-        """Everything there is to say, as plain values for JSON."""
-        return describe(answers, self.card, check_task(self.card, task))
-
-
-def check_task(card: ModelCard, task: str | None) -> str:
-    """The task to ask for; models that do not see the task need none.
-
-    Raises:
-        InputError: none given where one is needed, or an unknown one.
-    """
-    if task is None and not sees_task(card):
-        return card.tasks[0]
-    if task not in card.tasks:
-        said = "is needed" if task is None else "unknown"
-        raise InputError("--task", task or "", f"{said}; allowed: {', '.join(card.tasks)}")
-    return task
-
-
-def sees_task(card: ModelCard) -> bool:
-    """Whether the answer depends on the task."""
-    variant = VARIANTS[card.model]
-    return variant.picture_shows_task or variant.task_vector
-
-
-def wanted_types(answer: Answer, types: Sequence[str]) -> list[str]:
-    """The chosen types as the published table spells them; the likeliest if none is chosen."""
-    likeliest = answer.probability == answer.probability.max()
-    chosen = answer.chosen if answer.chosen.any() else likeliest
-    return [spelled(kind) for kind, yes in zip(types, chosen, strict=True) if yes]
-
-
-def describe(answers: Sequence[Answer], card: ModelCard, task: str) -> dict[str, Any]:
-    """Everything there is to say, as plain values for JSON."""
-    return {
-        "model": card.model,
-        "labels": card.labels,
-        "task": task if sees_task(card) else None,
-        "backbone": card.backbone,
-        "weights": card.weights,
-        "finetune": card.finetune,
-        "answers": [
-            {
-                "name": answer.name,
-                "probability": _by_type(card, answer.probability),
-                "sigmoid": _by_type(card, answer.sigmoid),
-                "chosen": [t for t, yes in zip(card.types, answer.chosen, strict=True) if yes],
-            }
-            for answer in answers
-        ],
-    }
+        """Everything there is to say of answers for a task, as plain values for JSON."""
+        card = self.card
+        return {
+            "model": card.model,
+            "labels": card.labels,
+            "task": self.check_task(task) if card.sees_task else None,
+            "backbone": card.backbone,
+            "weights": card.weights,
+            "finetune": card.finetune,
+            "answers": [
+                {
+                    "name": answer.name,
+                    "probability": dict(zip(card.types, answer.probability.tolist(), strict=True)),
+                    "sigmoid": dict(zip(card.types, answer.sigmoid.tolist(), strict=True)),
+                    "chosen": [t for t, yes in zip(card.types, answer.chosen, strict=True) if yes],
+                }
+                for answer in answers
+            ],
+        }
 
 
 def report(answers: Sequence[Answer], card: ModelCard, task: str) -> str:
-    """The same for people: a block for one answer, a row each for several."""
-    asked = f"task {task}" if sees_task(card) else "whatever the task"
+    """Answers for people: a block for one, a row each for several."""
+    whose = f"task {task}" if card.sees_task else "whatever the task"
     lines = [
-        f"model     {card.model}, {card.labels} labels, {asked}",
+        f"model     {card.model}, {card.labels} labels, {whose}",
         f"backbone  {card.backbone}, {card.weights}",
         "",
     ]
-    block = _block if len(answers) == 1 else _rows
-    return "\n".join([*lines, *block(answers, card)]) + "\n"
+    block = _block(answers[0]) if len(answers) == 1 else _rows(answers)
+    return "\n".join([*lines, *block]) + "\n"
 
 
-def _block(answers: Sequence[Answer], card: ModelCard) -> list[str]:
-    (answer,) = answers
-    rows = zip(card.types, answer.probability, answer.sigmoid, answer.chosen, strict=True)
-    head = f"{'':18}probability  sigmoid"
-    return [answer.name, head] + [
+def _block(answer: Answer) -> list[str]:
+    rows = zip(answer.types, answer.probability, answer.sigmoid, answer.chosen, strict=True)
+    return [answer.name, f"{'':18}probability  sigmoid"] + [
         f"{spelled(kind):18}{probability:11.3f}  {alone:7.3f}{'  chosen' if yes else ''}"
         for kind, probability, alone, yes in rows
     ]
 
 
-def _rows(answers: Sequence[Answer], card: ModelCard) -> list[str]:
+def _rows(answers: Sequence[Answer]) -> list[str]:
     width = max(len(answer.name) for answer in answers)
-    kinds = [spelled(kind) for kind in card.types]
+    kinds = [spelled(kind) for kind in answers[0].types]
     lines = ["  ".join([" " * width, *kinds, "chosen"])]
     for answer in answers:
         cells = [f"{p:{len(kind)}.3f}" for kind, p in zip(kinds, answer.probability, strict=True)]
@@ -228,7 +236,3 @@ def _rows(answers: Sequence[Answer], card: ModelCard) -> list[str]:
 def spelled(kind: str) -> str:
     """As the published table spells a type."""
     return kind.replace("_", " ").title()
-
-
-def _by_type(card: ModelCard, values: np.ndarray) -> dict[str, float]:
-    return {kind: float(value) for kind, value in zip(card.types, values, strict=True)}

@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from grasptypes.predictors.prediction import Answer, sees_task, spelled
+from grasptypes.predictors.prediction import Answer, spelled
 from grasptypes.predictors.predictor_files import ModelCard
 
 CHOSEN, OTHER = "#2a6f97", "#b8c4cc"
@@ -21,7 +21,7 @@ def draw_answers(
     pictures: Sequence[np.ndarray], answers: Sequence[Answer], card: ModelCard, task: str
 ) -> Figure:
     """One row an answer: its picture (H, W, 3) uint8 at the left, its bars at the right."""
-    asked = f"for {task}" if sees_task(card) else "whatever the task"
+    asked = f"for {task}" if card.sees_task else "whatever the task"
     title = f"{card.model}, {card.labels} labels, {asked}; {card.backbone}, {card.weights}"
     height_in = ROW_IN * len(answers) + 0.5
     figure = Figure(figsize=(8.0, height_in), layout="constrained")
@@ -30,7 +30,7 @@ def draw_answers(
         shown.imshow(picture)
         shown.set_axis_off()
         shown.set_title(_shortened(answer.name), fontsize="small", parse_math=False)
-        _draw_bars(bars, answer, card)
+        _draw_bars(bars, answer)
     panels[-1][1].set_xlabel("probability; chosen types are dark", fontsize="small")
     figure.suptitle(title, fontsize="small", parse_math=False)
     return figure
@@ -51,9 +51,9 @@ def _shortened(name: str) -> str:
     return name if len(name) <= NAME_LENGTH else f"{name[:half]}…{name[1 - half :]}"
 
 
-def _draw_bars(axes: Axes, answer: Answer, card: ModelCard) -> None:
+def _draw_bars(axes: Axes, answer: Answer) -> None:
     colours = [CHOSEN if yes else OTHER for yes in answer.chosen]
-    kinds = [spelled(kind) for kind in card.types]
+    kinds = [spelled(kind) for kind in answer.types]
     bars = axes.barh(kinds, answer.probability, color=colours)
     axes.bar_label(bars, [f"{value:.2f}" for value in answer.probability], padding=3, fontsize=8)
     axes.invert_yaxis()

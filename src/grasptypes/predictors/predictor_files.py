@@ -54,6 +54,12 @@ class ModelCard:
     finetune: str
     precision: str
 
+    @property
+    def sees_task(self) -> bool:
+        """Whether the answer depends on the task."""
+        variant = VARIANTS[self.model]
+        return variant.picture_shows_task or variant.task_vector
+
 
 class PredictorNetwork:
     """A backbone, a head and their card: pictures and task to logits of grasp types."""

@@ -7,6 +7,7 @@ from typing import Annotated, Literal, Self
 
 from pydantic import AfterValidator, model_validator
 
+from grasptypes.errors import InputError
 from grasptypes.settings.base import MisplacedError, Name, Settings, Unique, setting
 from grasptypes.settings.commands import PlanSettings, PredictSettings, TrackingSettings
 from grasptypes.settings.contact_maps import ContactEvidenceSettings, ContactMapSettings
@@ -93,3 +94,15 @@ def read_params(path: str | Path) -> Params:
         InputError: the file cannot be read, or has a wrong key; names the first one.
     """
     return Params.check(read_yaml(path), path)
+
+
+def checkout_params(folder: str | Path) -> Params:
+    """The parameters of a checkout.
+
+    Raises:
+        InputError: there are none, or wrong ones.
+    """
+    path = Path(folder, "params.yaml")
+    if not path.is_file():
+        raise InputError(path, "", "no such file; name a checkout as the folder (--folder)")
+    return read_params(path)

@@ -100,32 +100,17 @@ def _huge(folder):
 
 
 @pytest.mark.parametrize(
-    ("arguments", "expected", "status"),
+    ("arguments", "expected"),
     [
-        (("--image", "gone.png", "--task", "use"), "error: gone.png: no such file or folder", 1),
-        (
-            ("--image", "photo.png", "--task", "fly"),
-            "error: --task: fly: unknown; allowed: ",
-            1,
-        ),
-        (("--image", "photo.png"), "error: --task: is needed; allowed: use, handoff, wash", 1),
-        (("--image", "photo.png", "--task", "use", "--model", "e"), "--model: e: unknown", 1),
-        (("--image", "photo.png", "--task", "use", "--model", "d"), "is not trained yet; run:", 1),
-        (("--image", "photo.png", "--task", "use", "--picture", "o.jpg"), "must end in .png", 1),
-        (("--image", ".", "--task", "use", "--picture", "."), "must end in .png", 1),
-        (("--object", "photo.png", "--task", "use"), "is not a supported mesh format", 1),
-        (("--task", "use"), "one of the arguments --image --object is required", 2),
-        (("--image", "photo.png", "--colour"), "unrecognized arguments: --colour", 2),
+        (("--task", "fly"), "error: --task: fly: unknown; allowed: use, handoff, wash"),
+        ((), "error: --task: is needed; allowed: use, handoff, wash"),
+        (("--task", "use", "--model", "d"), "is not trained yet; run:"),
     ],
 )
-def test_bad_input_is_one_line_and_writes_nothing(predict, tmp_path, arguments, expected, status):
-    before = sorted(tmp_path.iterdir())
-    out, err, code = predict(*arguments)
-    assert out == ""
+def test_what_a_model_cannot_answer_is_one_line(predict, arguments, expected):
+    out, err, status = predict("--image", "photo.png", *arguments)
+    assert (out, status) == ("", 1)
     assert expected in err
-    assert err.strip().count("\n") == 0
-    assert code == status
-    assert sorted(tmp_path.iterdir()) == before
 
 
 def test_one_bad_picture_of_a_folder_stops_everything(predict, tmp_path, monkeypatch):
@@ -174,7 +159,7 @@ def test_names_are_no_mathematics_and_have_room(checkout):
     card = read_card(checkout / "models/simulated/task_vector/predictor.json")
     even = np.full(len(TYPES), 1 / len(TYPES))
     names = ["a $\\cup$ of $5_$.png", "x" * 100 + ".png"]
-    answers = [Answer(name, even, even) for name in names]
+    answers = [Answer(name, TYPES, even, even) for name in names]
     figure = draw_answers([PICTURE, PICTURE], answers, card, "use of $_$")
     figure.canvas.draw()
     first, _, second, _ = (axes.get_title() for axes in figure.axes)

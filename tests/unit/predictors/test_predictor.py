@@ -5,7 +5,7 @@ import pytest
 import torch
 from scipy.special import softmax
 
-from grasptypes.predictors.predictor import LAYERS, VARIANTS, Architecture, BatchedMLP, loss
+from grasptypes.predictors.predictor import LAYERS, Architecture, BatchedMLP, loss
 
 SIZES = Architecture(inputs=10, tasks=3, hidden=(8, 7, 5), outputs=6)
 
@@ -54,10 +54,3 @@ def test_loss_by_hand():
     vector = -np.log(softmax(logits, axis=-1)[0])
     value = loss(*(torch.tensor(x) for x in (logits, labels, probabilities)), 3.0)
     assert value.item() == pytest.approx(binary + 3 * vector)
-
-
-def test_the_rows_of_the_paper():
-    assert [v.row for v in VARIANTS.values()] == ["a", "b", "c", "d"]
-    assert [v.picture_shows_task for v in VARIANTS.values()] == [False, False, True, False]
-    assert [v.task_vector for v in VARIANTS.values()] == [False, True, False, False]
-    assert [v.joint_labels for v in VARIANTS.values()] == [False, False, False, True]

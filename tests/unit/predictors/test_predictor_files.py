@@ -1,53 +1,92 @@
-"""A predictor read back answers as it did in training."""
+"""A predictor read back from disk answers as it did in training."""
 
 from dataclasses import replace
 
+import learning
 import numpy as np
 import pytest
 import torch
-from learning import random_weights, small_predictor
 
 from grasptypes.errors import InputError
 from grasptypes.predictors.backbone import load_backbone
 from grasptypes.predictors.features import extract
+from grasptypes.predictors.predictor import VARIANTS
 from grasptypes.predictors.predictor_files import load_predictor, read_card, write_predictor
+
+IMAGES = np.random.default_rng(0).integers(0, 256, (3, 40, 40, 3), dtype=np.uint8)
+
+
+@pytest.fixture
+def weights(tmp_path):
+    return learning.random_weights(tmp_path / "random.pth")
+
+
+@pytest.fixture
+def files(tmp_path):
+    return tmp_path / "predictor.safetensors", tmp_path / "predictor.json"
+
+
+def shown_and_told(card, task):
+    """The colour shift of the images, and the task vector of the head, for the card's model."""
+    variant, vector = VARIANTS[card.model], None
+    if variant.task_vector:
+        vector = torch.zeros(1, len(IMAGES), len(card.tasks))
+        vector[..., card.tasks.index(task)] = 1
+    return card.colour_shifts[task] if variant.picture_shows_task else 0, vector
 
 
 @pytest.mark.parametrize("precision", ["bf16", "fp32"])
-@pytest.mark.parametrize("model", ["task_vector", "task_in_image"])
-def test_it_sees_pictures_as_the_features_that_it_learnt_from_were_made(tmp_path, model, precision):
-    weights = random_weights(tmp_path / "random.pth")
-    small_predictor(tmp_path, weights, model)
-    files = tmp_path / "predictor.safetensors", tmp_path / "predictor.json"
-    drawn = load_predictor(*files, weights)
+@pytest.mark.parametrize("model", VARIANTS)
+def test_images_are_seen_as_the_features_that_were_learnt_from(files, weights, model, precision):
+    learning.small_predictor(files[0].parent, weights, model)
     card = replace(read_card(files[1]), precision=precision)
-    write_predictor(drawn.head, None, card, *files)
+    write_predictor(load_predictor(*files, weights).head, None, card, *files)
+    assert read_card(files[1]) == card
     predictor = load_predictor(*files, weights)
-    pictures = np.random.default_rng(0).integers(0, 256, (3, 40, 40, 3), dtype=np.uint8)
-    shift = card.colour_shifts["handoff"] if model == "task_in_image" else 0
-    backbone = load_backbone(weights, card.input_px)
-    features = extract(backbone, pictures, {"shown": shift}, precision, 3)["shown"]
-    task = None
-    if model == "task_vector":
-        task = torch.zeros(1, 3, len(card.tasks))
-        task[..., card.tasks.index("handoff")] = 1
-    with torch.inference_mode():
-        expected = predictor.head(torch.from_numpy(features)[None], task)[0].numpy()
-    np.testing.assert_array_equal(predictor.logits(pictures, "handoff"), expected)
+    logits = {}
+    for task in card.tasks:
+        shift, told = shown_and_told(card, task)
+        backbone = load_backbone(weights, card.input_px)
+        features = extract(backbone, IMAGES, {"shown": shift}, precision, 3)["shown"]
+        with torch.inference_mode():
+            expected = predictor.head(torch.from_numpy(features)[None], told)[0].numpy()
+        logits[task] = predictor.logits(IMAGES, task)
+        np.testing.assert_array_equal(logits[task], expected)
+    sees_task = model in ("task_vector", "task_in_image")
+    assert np.array_equal(logits["use"], logits["handoff"]) != sees_task
+    with pytest.raises(InputError, match="unknown; allowed: use, handoff, wash"):
+        predictor.logits(IMAGES, "throw")
 
 
-def test_precisions_can_be_told_apart(tmp_path):
-    weights = random_weights(tmp_path / "random.pth")
-    pictures = np.random.default_rng(0).integers(0, 256, (3, 40, 40, 3), dtype=np.uint8)
+def test_a_fine_tuned_backbone_is_kept_with_its_head(files, weights):
+    learning.small_predictor(files[0].parent, weights)
+    predictor = load_predictor(*files, weights)
+    tuned = load_backbone(weights, 32)
+    with torch.no_grad():
+        for parameter in tuned.blocks[-1].parameters():
+            parameter += 0.1
+    card = replace(predictor.card, finetune="last_blocks")
+    write_predictor(predictor.head, tuned, card, *files)
+    loaded = load_predictor(*files, weights)
+    for name, tensor in loaded.backbone.state_dict().items():
+        torch.testing.assert_close(tensor, tuned.state_dict()[name])
+    assert not np.allclose(loaded.logits(IMAGES, "use"), predictor.logits(IMAGES, "use"))
+
+
+def test_precisions_can_be_told_apart(weights):
     backbone = load_backbone(weights, 32)
-    fine, coarse = (extract(backbone, pictures, {"": 0}, p, 3)[""] for p in ("fp32", "bf16"))
+    fine, coarse = (extract(backbone, IMAGES, {"": 0}, p, 3)[""] for p in ("fp32", "bf16"))
     assert not np.array_equal(fine, coarse)
 
 
-def test_a_card_without_precision_is_refused(tmp_path):
-    weights = random_weights(tmp_path / "random.pth")
-    small_predictor(tmp_path, weights)
-    path = tmp_path / "predictor.json"
-    path.write_text(path.read_text().replace('"precision"', '"accuracy"'))
-    with pytest.raises(InputError, match="not a predictor's card"):
-        read_card(path)
+def test_other_weights_and_damaged_files_are_rejected(files, weights):
+    learning.small_predictor(files[0].parent, weights)
+    with pytest.raises(InputError, match="trained on mobilenet_v2"):
+        load_predictor(*files, replace(weights, sha256="0" * 64))
+    files[0].write_bytes(files[0].read_bytes()[:-10])
+    with pytest.raises(InputError, match=r"predictor\.safetensors"):
+        load_predictor(*files, weights)
+    for damaged in ("{}", files[1].read_text().replace('"precision"', '"accuracy"')):
+        files[1].write_text(damaged)
+        with pytest.raises(InputError, match="not a predictor's card"):
+            read_card(files[1])

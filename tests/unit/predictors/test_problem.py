@@ -13,7 +13,7 @@ from grasptypes.predictors.problem import read_problem
 from grasptypes.predictors.weights import WEIGHTS_VARIABLE
 from grasptypes.tables import write_table
 
-SETTINGS = learning.SETTINGS
+TUNED = learning.SETTINGS.changed(finetune="all")
 
 
 @pytest.fixture
@@ -36,17 +36,17 @@ def files(tmp_path, monkeypatch):
 
 def test_frozen_problems_need_no_backbone_and_others_bring_theirs(files):
     name = "simulated", "task_vector"
-    frozen = read_problem(files, name, learning.TASKS, SETTINGS)
+    frozen = read_problem(files, name, learning.TASKS, learning.SETTINGS)
     assert frozen.backbone is None
     assert frozen.examples.inputs.shape[1] == 24
     assert len(frozen.examples.inputs) == learning.VIEWS * len(learning.OBJECTS) * 3
-    tuned = read_problem(files, name, learning.TASKS, SETTINGS.changed(finetune="last_blocks"))
+    tuned = read_problem(files, name, learning.TASKS, TUNED)
     assert tuned.backbone is not None
     assert tuned.backbone.input_px == 32
 
 
 def test_the_card_tells_what_the_predictor_needs_to_be_used(files):
-    problem = read_problem(files, ("published", "task_in_image"), learning.TASKS, SETTINGS)
+    problem = read_problem(files, ("published", "task_in_image"), learning.TASKS, learning.SETTINGS)
     card = problem.card(Architecture(24, 0, (8, 8, 8), 6), "bf16")
     assert (card.model, card.labels, card.finetune) == ("task_in_image", "published", "none")
     assert card.tasks == tuple(learning.TASKS)
@@ -57,14 +57,12 @@ def test_the_card_tells_what_the_predictor_needs_to_be_used(files):
 
 
 def test_a_fine_tuned_backbone_is_used_in_the_precision_it_was_trained_in(files):
-    settings = SETTINGS.changed(finetune="all")
-    problem = read_problem(files, ("published", "no_task"), learning.TASKS, settings)
+    problem = read_problem(files, ("published", "no_task"), learning.TASKS, TUNED)
     assert problem.card(Architecture(24, 0, (8, 8, 8), 6), "bf16").precision == "fp32"
 
 
 def test_weights_other_than_the_recorded_are_refused(files, tmp_path, monkeypatch):
     (tmp_path / "other.pth").write_bytes(b"other")
     monkeypatch.setenv(WEIGHTS_VARIABLE, str(tmp_path / "other.pth"))
-    name, settings = ("simulated", "no_task"), SETTINGS.changed(finetune="all")
     with pytest.raises(InputError, match=r"other\.pth: is not the recorded random\.pth"):
-        read_problem(files, name, learning.TASKS, settings)
+        read_problem(files, ("simulated", "no_task"), learning.TASKS, TUNED)
