@@ -73,7 +73,7 @@ def sigmoid(intensity: Array, coldest: float, warmest: float) -> Array:
     low, high = np.nanmin(intensity), np.nanmax(intensity)
     ends = np.log([coldest / (1 - coldest), warmest / (1 - warmest)])
     logit = ends[0] + (intensity - low) / (high - low) * (ends[1] - ends[0])
-    return 1.0 / (1.0 + np.exp(-logit))
+    return np.asarray(1.0 / (1.0 + np.exp(-logit)))
 
 
 def map_measured_contacts(task: MapTask, probability: Array, path: str | Path) -> ContactMap:

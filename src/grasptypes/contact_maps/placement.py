@@ -52,9 +52,9 @@ def place_hand(
 def _axis(name: str, held: Array) -> Array:
     """The named axis of the object, or the direction in which the held points extend most."""
     if name:
-        return np.eye(3)["xyz".index(name)]
+        return np.asarray(np.eye(3)["xyz".index(name)])
     axis = np.linalg.svd(held - held.mean(axis=0), full_matrices=False)[2][0]
-    return axis * np.sign(axis[np.argmax(np.abs(axis))])
+    return np.asarray(axis * np.sign(axis[np.argmax(np.abs(axis))]))
 
 
 def _centre(held: Array, axis: Array, height: float, slice_m: float) -> Array:
@@ -65,7 +65,7 @@ def _centre(held: Array, axis: Array, height: float, slice_m: float) -> Array:
     thickness_m = max(slice_m, 1.01 * np.abs(along - at).min())
     cut = held[np.abs(along - at) <= thickness_m]
     aside = cut - np.outer(cut @ axis, axis)
-    return (aside.min(axis=0) + aside.max(axis=0)) / 2 + at * axis
+    return np.asarray((aside.min(axis=0) + aside.max(axis=0)) / 2 + at * axis)
 
 
 def _palm_side(
@@ -111,4 +111,4 @@ def _any_normal(direction: Array) -> Array:
     """A unit vector orthogonal to a direction; deterministic."""
     other = np.eye(3)[np.argmin(np.abs(direction))]
     normal = np.cross(direction, other)
-    return normal / np.linalg.norm(normal)
+    return np.asarray(normal / np.linalg.norm(normal))

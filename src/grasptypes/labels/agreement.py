@@ -134,7 +134,7 @@ def describe_fit(objects: Iterable[str], fitted_on: Iterable[str]) -> list[str]:
 
 def confusion(grasps: LabelledGrasps, predicted: NDArray[np.int64]) -> NDArray[np.int64]:
     """Counts (6, 6): rows are human labels, columns the rule's."""
-    return confusion_matrix(grasps.labels, predicted, labels=np.arange(len(TYPES)))
+    return np.asarray(confusion_matrix(grasps.labels, predicted, labels=np.arange(len(TYPES))))
 
 
 def fit_thresholds(grasps: LabelledGrasps, softness: Softness) -> Array:
@@ -154,7 +154,7 @@ def fit_thresholds(grasps: LabelledGrasps, softness: Softness) -> Array:
 
     options = {"maxiter": 600, "xatol": 1e-4, "fatol": 1e-7}
     start = np.median(measured, axis=1)
-    return np.exp(minimize(loss, start, method="Nelder-Mead", options=options).x)
+    return np.asarray(np.exp(minimize(loss, start, method="Nelder-Mead", options=options).x))
 
 
 def cross_validate(grasps: LabelledGrasps, softness: Softness) -> pd.DataFrame:

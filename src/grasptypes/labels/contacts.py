@@ -130,7 +130,7 @@ def closing_directions(T_hand_link: Array, position_m: Array) -> Array:
 def unit(vectors: Array) -> Array:
     """Vectors (..., d) at unit length; zero stays zero."""
     length = np.linalg.norm(vectors, axis=-1, keepdims=True)
-    return np.divide(vectors, length, out=np.zeros_like(vectors), where=length > 0)
+    return np.asarray(np.divide(vectors, length, out=np.zeros_like(vectors), where=length > 0))
 
 
 def _patches(distance: Array, link_index: NDArray[np.int64], depth_m: float) -> tuple[Array, Array]:
@@ -149,4 +149,5 @@ def _patches(distance: Array, link_index: NDArray[np.int64], depth_m: float) -> 
 
 
 def _apply(T: Array, points: Array) -> Array:
-    return np.einsum("...ij,...j->...i", T[..., :3, :3], points) + T[..., :3, 3]
+    applied: Array = np.einsum("...ij,...j->...i", T[..., :3, :3], points) + T[..., :3, 3]
+    return applied

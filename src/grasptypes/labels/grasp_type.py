@@ -138,7 +138,7 @@ def enclosed_diameters(joint_angles_rad: ArrayLike) -> Array:
     base = angles[:, 2:5] + kinematics.PROXIMAL_REST_RAD
     tip = angles[:, 5:8] + kinematics.DISTAL_REST_RAD
     radius = kinematics.PROXIMAL_LENGTH_M / (np.tan(base / 2.0) + np.tan(tip / 2.0))
-    return np.maximum(2.0 * (radius - DISTAL_HUB_RADIUS_M), 0.0)
+    return np.asarray(np.maximum(2.0 * (radius - DISTAL_HUB_RADIUS_M), 0.0))
 
 
 def sideways_share(contacts: Contacts) -> Array:
@@ -151,14 +151,14 @@ def sideways_share(contacts: Contacts) -> Array:
     weight, sideways = contacts.weight[:, links], contacts.push[:, links, 0] ** 2
     total = weight.sum(axis=1)
     share = (weight * sideways).sum(axis=1)
-    return np.divide(share, total, out=np.zeros_like(total), where=total > 0)
+    return np.asarray(np.divide(share, total, out=np.zeros_like(total), where=total > 0))
 
 
 def fingertip_span(contacts: Contacts) -> Array:
     """Distance (n,), metres, from finger 3's contact to the farther one of fingers 1 and 2."""
     first, second, third = (contacts.position_m[:, link] for link in DISTAL_LINKS)
     spans = [np.linalg.norm(third - other, axis=1) for other in (first, second)]
-    return np.maximum(*spans)
+    return np.asarray(np.maximum(*spans))
 
 
 def limits(settings: Thresholds | Softness) -> Array:
@@ -185,7 +185,7 @@ def type_chances(above: Array) -> Array:
 def classify(measures: Measures, thresholds: ArrayLike) -> NDArray[np.int64]:
     """Indices (n,) into `TYPES` of n grasps, with thresholds (4,) in the order of `Measures`."""
     above = np.stack(measures) > np.asarray(thresholds)[:, None]
-    return type_chances(above.astype(np.float64)).argmax(axis=0)
+    return np.asarray(type_chances(above.astype(np.float64)).argmax(axis=0))
 
 
 def explain(measures: Measures, thresholds: Thresholds) -> list[Label]:

@@ -61,7 +61,7 @@ class HandFit(NamedTuple):
     @property
     def penetration_m(self) -> Array:
         """(n,) penetration depth of hand and object, 0 without penetration."""
-        return np.maximum(-self.link_distance_m.min(axis=1), self.depth_m).clip(min=0.0)
+        return np.asarray(np.maximum(-self.link_distance_m.min(axis=1), self.depth_m).clip(min=0.0))
 
 
 def read_reference_mesh(path: str | Path, scale: float) -> trimesh.Trimesh:

@@ -85,7 +85,7 @@ def _lighten(hull: Manifold, max_vertices: int) -> Manifold:
 
 def _excess(piece: Manifold) -> float:
     """Return the volume (m3) that the convex hull adds to a piece."""
-    return max(piece.hull().volume() - piece.volume(), 0.0)
+    return float(max(piece.hull().volume() - piece.volume(), 0.0))
 
 
 def _best_cut(piece: Manifold, fractions: Sequence[float]) -> list[Manifold]:

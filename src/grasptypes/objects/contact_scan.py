@@ -5,6 +5,7 @@ from __future__ import annotations
 import io
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import trimesh
@@ -46,7 +47,7 @@ def read_contact_scan(path: str | Path, metres: float = 1.0) -> ContactScan:
         raise InputError(path, "", "no such file")
     with parsing(path, "cannot be read as PLY"):
         content = _unwrapped(path.read_bytes())
-        loaded = trimesh.load(io.BytesIO(content), file_type="ply", process=False)
+        loaded: Any = trimesh.load(io.BytesIO(content), file_type="ply", process=False)
     check_counts(path, loaded)
     red = _red_channel(path, loaded)
     points_m = np.asarray(loaded.vertices, dtype=np.float64) * metres
@@ -57,16 +58,12 @@ def read_contact_scan(path: str | Path, metres: float = 1.0) -> ContactScan:
     return ContactScan(points_m, np.where(red > 0, red / 255.0, np.nan))
 
 
-def _red_channel(path: Path, loaded: trimesh.parent.Geometry) -> NDArray[np.float64]:
+def _red_channel(path: Path, loaded: Any) -> NDArray[np.float64]:
     """Return the red channel (N,), 0 to 255, of a mesh or point cloud."""
-    if isinstance(loaded, trimesh.PointCloud):
-        colours = loaded.colors
-    elif isinstance(loaded, trimesh.Trimesh) and loaded.visual.kind == "vertex":
-        colours = loaded.visual.vertex_colors
-    elif isinstance(loaded, trimesh.Trimesh) and loaded.visual.kind == "texture":
+    kind = getattr(getattr(loaded, "visual", None), "kind", None)
+    if kind == "texture":
         raise InputError(path, "", "has a texture, but vertex colours are needed")
-    else:
-        colours = None
+    colours = loaded.visual.vertex_colors if kind == "vertex" else getattr(loaded, "colors", None)
     if colours is None or len(colours) != len(loaded.vertices):
         raise InputError(path, "", "has no vertex colours: the red channel is the contact map")
     # The numbers in the file: trimesh converts them to bytes, whatever they are.
@@ -75,7 +72,7 @@ def _red_channel(path: Path, loaded: trimesh.parent.Geometry) -> NDArray[np.floa
     if not ((red >= 0) & (red <= most)).all():
         bad = int(np.argmin((red >= 0) & (red <= most)))
         raise InputError(path, "red", f"is {stated[bad]} at vertex {bad}; must be 0 to {most}")
-    return red * 255 / most
+    return np.asarray(red * 255 / most)
 
 
 def _unwrapped(content: bytes) -> bytes:

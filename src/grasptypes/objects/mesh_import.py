@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import cast
 
 import igl
 import numpy as np
@@ -46,7 +47,7 @@ def import_model(own: OwnObject, limits: ImportLimits) -> ImportedModel:
         if solid is not None:
             parts.append(Part(name, solid, GREY))
     if len(parts) < len(meshes):
-        whole = _tidy(trimesh.util.concatenate(list(meshes.values())), [])
+        whole = _tidy(cast(trimesh.Trimesh, trimesh.util.concatenate(list(meshes.values()))), [])
         repairs = []  # earlier repairs have no effect on the rebuilt surface
         parts = [Part("body", _rebuild(path, whole, limits, repairs), GREY)]
     check_volume(path, sum(part.solid.volume() for part in parts), meshes, limits)

@@ -28,7 +28,8 @@ def check_file(path: Path, limits: ImportLimits) -> None:
 def check_counts(path: Path, loaded: trimesh.parent.Geometry) -> None:
     """Reject a PLY with less content than its header says; raises InputError."""
     stated = loaded.metadata.get("_ply_raw", {})
-    for name, held in (("vertex", loaded.vertices), ("face", getattr(loaded, "faces", ()))):
+    for name, attribute in (("vertex", "vertices"), ("face", "faces")):
+        held = getattr(loaded, attribute, ())
         count = stated.get(name, {}).get("length", 0)
         if count > len(held):
             raise InputError(

@@ -139,7 +139,7 @@ def visual_glb(parts: list[Part], crease_deg: float) -> bytes:
         scene.add_geometry(
             shown, geom_name=f"{part.name}_{index}", node_name=f"{part.name}_{index}"
         )
-    return scene.export(file_type="glb", include_normals=True)
+    return bytes(scene.export(file_type="glb", include_normals=True))
 
 
 def _pbr(name: str, material: Material) -> trimesh.visual.material.PBRMaterial:

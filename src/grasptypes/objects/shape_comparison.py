@@ -108,7 +108,9 @@ def inside(mesh: trimesh.Trimesh, points_m: Array) -> NDArray[np.bool_]:
     """
     vertices = np.ascontiguousarray(mesh.vertices, dtype=np.float64)
     faces = np.ascontiguousarray(mesh.faces, dtype=np.int64)
-    return np.abs(igl.fast_winding_number(vertices, faces, np.ascontiguousarray(points_m))) > 0.5
+    return np.asarray(
+        np.abs(igl.fast_winding_number(vertices, faces, np.ascontiguousarray(points_m))) > 0.5
+    )
 
 
 def sample_surface(mesh: trimesh.Trimesh, count: int) -> Array:
@@ -149,4 +151,4 @@ def _distances(points: Array, mesh: trimesh.Trimesh) -> Array:
     vertices = np.ascontiguousarray(mesh.vertices, dtype=np.float64)
     faces = np.ascontiguousarray(mesh.faces, dtype=np.int64)
     squared = igl.point_mesh_squared_distance(np.ascontiguousarray(points), vertices, faces)[0]
-    return np.sqrt(squared)
+    return np.asarray(np.sqrt(squared))

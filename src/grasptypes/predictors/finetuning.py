@@ -30,7 +30,8 @@ class Network(torch.nn.Module):
     def forward(self, pictures: torch.Tensor, task: torch.Tensor | None = None) -> torch.Tensor:
         """Logits (B, types) of images (B, H, W, 3) uint8 and tasks (B, T) one-hot."""
         features = self.backbone(pictures)
-        return self.head(features[None], None if task is None else task[None])[0]
+        logits: torch.Tensor = self.head(features[None], None if task is None else task[None])[0]
+        return logits
 
 
 def fine_tune(
@@ -71,8 +72,9 @@ def fine_tune(
         batches = np.array_split(shuffled, max(1, len(shuffled) // settings.finetuning.batch))
         for rows in batches:
             logits = network(*_inputs(examples, rows))
-            targets = (torch.from_numpy(t[rows]) for t in (examples.labels, examples.probabilities))
-            value = loss(logits, *targets, settings.probability_weight).mean()
+            labels = torch.from_numpy(examples.labels[rows])
+            shares = torch.from_numpy(examples.probabilities[rows])
+            value = loss(logits, labels, shares, settings.probability_weight).mean()
             optimiser.zero_grad()
             value.backward()
             optimiser.step()

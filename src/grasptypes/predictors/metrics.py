@@ -27,7 +27,8 @@ def angular_similarity(predicted: ArrayLike, target: ArrayLike) -> np.ndarray:
     first, second = _directions(predicted), _directions(target)
     # The chord is accurate at small angles, where the arc cosine loses half the digits.
     half_chord = np.linalg.norm(first - second, axis=-1) / 2
-    return 1 - 4 / np.pi * np.arcsin(np.clip(half_chord, 0, 1))
+    similarity: np.ndarray = 1 - 4 / np.pi * np.arcsin(np.clip(half_chord, 0, 1))
+    return similarity
 
 
 def multilabel_accuracy(predicted: ArrayLike, target: ArrayLike) -> np.ndarray:
@@ -56,7 +57,8 @@ def multilabel_precision(predicted: ArrayLike, target: ArrayLike) -> np.ndarray:
 def chosen(logits: ArrayLike) -> np.ndarray:
     """Types (..., K) whose sigmoid exceeds 0.5, from logits (..., K)."""
     limit = np.log(SIGMOID_THRESHOLD / (1 - SIGMOID_THRESHOLD))
-    return np.asarray(logits) > limit
+    types: np.ndarray = np.asarray(logits) > limit
+    return types
 
 
 def evaluate(logits: ArrayLike, labels: ArrayLike, probabilities: ArrayLike) -> dict[str, float]:
@@ -84,7 +86,8 @@ def _directions(vectors: ArrayLike) -> np.ndarray:
     lengths = np.linalg.norm(vectors, axis=-1, keepdims=True)
     if (lengths == 0).any():
         raise ValueError("angular similarity needs vectors that are not all zeros")
-    return vectors / lengths
+    directions: np.ndarray = vectors / lengths
+    return directions
 
 
 def _overlap(predicted: ArrayLike, target: ArrayLike) -> tuple[np.ndarray, np.ndarray]:

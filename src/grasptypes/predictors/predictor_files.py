@@ -88,7 +88,9 @@ class PredictorNetwork:
         tensor = torch.from_numpy(np.ascontiguousarray(pictures))
         features = forward(self.backbone, tensor, card.precision)
         with torch.inference_mode():
-            return self.head(features[None], None if vector is None else vector[None])[0].numpy()
+            vectors = None if vector is None else vector[None]
+            logits: np.ndarray = self.head(features[None], vectors)[0].numpy()
+        return logits
 
 
 def write_predictor(
@@ -121,8 +123,8 @@ def read_card(described: str | Path) -> ModelCard:
         content: dict[str, Any] = json.loads(Path(described).read_text(encoding="utf-8"))
         sizes = content.pop("architecture")
         sizes["hidden"] = tuple(sizes["hidden"])
-        lists = {key: tuple(content.pop(key)) for key in ("types", "tasks")}
-        return ModelCard(architecture=Architecture(**sizes), **lists, **content)
+        content |= {key: tuple(content[key]) for key in ("types", "tasks")}
+        return ModelCard(architecture=Architecture(**sizes), **content)
     except (OSError, ValueError, KeyError, TypeError) as error:
         raise InputError(described, "", f"not a predictor's card: {error}") from error
 

@@ -107,7 +107,8 @@ def predict(heads: BatchedMLP, member: int, examples: Examples, rows: np.ndarray
     inputs = torch.from_numpy(examples.inputs[rows])[None]
     tasks = examples.task_vectors
     task = None if tasks is None else torch.from_numpy(tasks[rows])[None]
-    return one.eval()(inputs, task)[0].numpy()
+    logits: np.ndarray = one.eval()(inputs, task)[0].numpy()
+    return logits
 
 
 @dataclass(frozen=True)

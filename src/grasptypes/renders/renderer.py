@@ -89,6 +89,7 @@ class Camera:
 
     def shoot(self, scene: pyrender.Scene) -> np.ndarray:
         """Image of the scene on black: (size, size, 4) uint8, alpha is the coverage."""
+        colour: np.ndarray
         colour, depth_m = self._renderer.render(scene, self._pyrender.RenderFlags.RGBA)
         if colour.shape[-1] == 4:
             return colour
@@ -194,7 +195,9 @@ def _numbered_node(pyrender: Any, number: int, light: Any, pose: np.ndarray) -> 
     sum is rounded differently, and a pixel may come out one level brighter.
     """
 
-    class NumberedNode(pyrender.Node):
+    base: type[Any] = pyrender.Node
+
+    class NumberedNode(base):  # type: ignore[misc]
         def __hash__(self) -> int:
             return number
 
@@ -211,7 +214,7 @@ def _material(pyrender: Any, part: Part) -> Any:
 
 
 def _unit(vector: Sequence[float] | np.ndarray) -> np.ndarray:
-    return np.asarray(vector, dtype=float) / np.linalg.norm(vector)
+    return np.asarray(np.asarray(vector, dtype=float) / np.linalg.norm(vector))
 
 
 def _looking_along(direction: np.ndarray) -> np.ndarray:

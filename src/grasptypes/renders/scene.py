@@ -69,10 +69,9 @@ def load_parts(path: str | Path) -> list[Part]:
 def _material(mesh: trimesh.Trimesh) -> tuple[float, ...]:
     material = getattr(mesh.visual, "material", None)
     if not isinstance(material, trimesh.visual.material.PBRMaterial):
-        colour = np.asarray(mesh.visual.main_color[:3]) if material is None else [180, 180, 180]
-        return (*(np.asarray(colour) / 255.0), 0.0, 0.6)
-    colour = material.baseColorFactor
-    colour = (255, 255, 255, 255) if colour is None else colour
+        plain = getattr(mesh.visual, "main_color", np.array([180, 180, 180]))
+        return (*(np.asarray(plain[:3]) / 255.0), 0.0, 0.6)
+    colour = (255, 255, 255, 255) if material.baseColorFactor is None else material.baseColorFactor
     metallic = 1.0 if material.metallicFactor is None else material.metallicFactor
     roughness = 1.0 if material.roughnessFactor is None else material.roughnessFactor
     return (*(np.asarray(colour[:3]) / 255.0), float(metallic), float(roughness))

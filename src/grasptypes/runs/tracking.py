@@ -21,7 +21,7 @@ from filelock import FileLock
 from mlflow.entities import LifecycleStage, Metric, Param
 from mlflow.exceptions import MlflowException
 from mlflow.models import ModelSignature
-from mlflow.types import Schema, TensorSpec
+from mlflow.types import ColSpec, Schema, TensorSpec
 from sqlalchemy.exc import SQLAlchemyError
 
 import grasptypes.errors
@@ -163,7 +163,9 @@ class Store:
             self._client.delete_logged_model(old.model_id)
         card = read_card(model.card)
         names, shape = ("probability", "sigmoid"), (-1, len(card.types))
-        outputs = [TensorSpec(np.dtype(np.float32), shape, name) for name in names]
+        outputs: list[ColSpec | TensorSpec] = [
+            TensorSpec(np.dtype(np.float32), shape, name) for name in names
+        ]
         files = {"tensors": model.tensors, "card": model.card, "weights": weights}
         with mlflow.start_run(run_id=run):
             mlflow.pyfunc.log_model(

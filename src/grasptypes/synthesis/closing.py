@@ -102,7 +102,7 @@ def _slide(
 def _least_gap(model: HandModel, grid: Field, link: int, pose: Array) -> float:
     """A lower bound on the distances of a link's points."""
     x, y, z = moved(pose, model.centres, link)
-    return distance(grid, x, y, z) - model.radii[link]
+    return float(distance(grid, x, y, z) - model.radii[link])
 
 
 @compiled(inline=True)

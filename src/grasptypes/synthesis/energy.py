@@ -52,7 +52,7 @@ class Closeness(NamedTuple):
     @property
     def penetration_m(self) -> Array:
         """(n,) depth of the deepest hand point in the object, 0 or more."""
-        return np.maximum(-self.gaps_m.min(axis=1), 0.0)
+        return np.asarray(np.maximum(-self.gaps_m.min(axis=1), 0.0))
 
 
 def draw_targets(
@@ -157,7 +157,7 @@ def _faces(
     for axis, g in enumerate((gx, gy, gz)):
         for k in range(3):
             along += pose[axis, k] * normals[row, k] * g / norm
-    return abs(gap) * np.sqrt(max(1.0 - along * along, 0.0)) <= offset_m
+    return bool(abs(gap) * np.sqrt(max(1.0 - along * along, 0.0)) <= offset_m)
 
 
 @compiled()

@@ -113,4 +113,4 @@ def _least_norm(points: Array, iterations: int) -> float:
         step = min(1.0, along / square)
         for k in range(points.shape[1]):
             current[k] += step * (points[best, k] - current[k])
-    return np.sqrt(np.sum(current * current))
+    return float(np.sqrt(np.sum(current * current)))

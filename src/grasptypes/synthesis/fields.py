@@ -76,7 +76,7 @@ def _beyond(value: float, way_squared: float) -> float:
     """
     if way_squared == 0.0:
         return value
-    return np.sqrt(value * value + way_squared)
+    return float(np.sqrt(value * value + way_squared))
 
 
 @compiled()

@@ -103,4 +103,4 @@ def _levers_m(angles: Array, coupled: NDArray[np.bool_]) -> Array:
     tips = kinematics.fingertips(angles)[[0, 1, 0, 1, 2, 0, 1, 2]]
     ways = np.cross(poses[:, :3, 2], tips - poses[:, :3, 3])
     ways[BASES] += kinematics.DISTAL_RATIO * coupled[:, None] * ways[TIPS]
-    return np.linalg.norm(ways, axis=1)
+    return np.asarray(np.linalg.norm(ways, axis=1))

@@ -170,7 +170,7 @@ class Physics:
         pybullet.resetBasePositionAndOrientation(
             thing, position, orientation, physicsClientId=client
         )
-        return thing
+        return int(thing)
 
     def _run(self, hand: int, thing: int, motors: Motors, intervals: int) -> None:
         """Simulate while the motors close the fingers as far as their force allows.

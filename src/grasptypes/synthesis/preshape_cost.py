@@ -101,4 +101,5 @@ def _push(grid: Field, point: tuple[float, float, float], base: Array, weight: f
     push = np.array([ay * rz - az * ry, az * rx - ax * rz, ax * ry - ay * rx])
     push *= weight / max(np.sqrt(np.sum(push * push)), 1e-12)
     push -= np.array([gx, gy, gz]) / norm
-    return push / max(np.sqrt(np.sum(push * push)), 1e-12)
+    unit: Array = push / max(np.sqrt(np.sum(push * push)), 1e-12)
+    return unit

@@ -46,7 +46,7 @@ class RankedGrasps(NamedTuple):
     @property
     def energy(self) -> Array:
         """(n,) sum of the terms."""
-        return self.terms.sum(axis=1)
+        return np.asarray(self.terms.sum(axis=1))
 
     def take(self, index: NDArray[np.int64]) -> RankedGrasps:
         """The grasps of an index."""
