@@ -6,7 +6,10 @@ import subprocess
 import sys
 from pathlib import Path
 
+import numpy as np
 import pytest
+from learning import small_checkout
+from PIL import Image
 
 from grasptypes.runtime import COMMON_INSTRUCTIONS, has_home, pin_runtime, processor_features
 
@@ -78,6 +81,57 @@ with contextlib.suppress(SystemExit), contextlib.redirect_stdout(io.StringIO()):
 print(json.dumps({name: os.environ[name] for name in ("OMP_NUM_THREADS", "MPLBACKEND")}))
 """
     assert used_with(HOSTILE, code) == {"OMP_NUM_THREADS": "1", "MPLBACKEND": "Agg"}
+
+
+# What users set for libraries and tools that answer a picture or draw it, beside `HOSTILE`.
+ELSEWHERE = {
+    "TMPDIR": "/nonexistent",
+    "MPLCONFIGDIR": "/proc/none",
+    "MATPLOTLIBRC": "/nonexistent",
+    "TORCH_HOME": "/proc/none",
+    "NUMBA_CACHE_DIR": "/proc/none",
+    "NUMBA_THREADING_LAYER": "tbb",
+    "KMP_AFFINITY": "none",
+    "LIBGL_ALWAYS_SOFTWARE": "0",
+    "GALLIUM_DRIVER": "softpipe",
+    "GIT_DIR": "/nonexistent",
+    "MLFLOW_TRACKING_URI": "http://127.0.0.1:1",
+    "DVC_SITE_CACHE_DIR": "/proc/none",
+    "PYTHONWARNINGS": "error",
+}
+NOBODY = """
+import os, pwd
+def unknown(uid):
+    raise KeyError(uid)
+pwd.getpwuid = unknown
+for name in ("HOME", "USER", "LOGNAME", "LNAME", "USERNAME"):
+    os.environ.pop(name, None)
+"""
+
+
+def test_predict_answers_alike_whatever_is_set_and_for_a_user_without_an_entry(tmp_path):
+    weights = small_checkout(tmp_path, {})
+    image = np.random.default_rng(0).integers(0, 256, (64, 64, 3), dtype=np.uint8)
+    Image.fromarray(image).save(tmp_path / "cup.png")
+    shown = ["--image", str(tmp_path / "cup.png"), "--task", "use", "--folder", str(tmp_path)]
+    code = """
+import sys
+from grasptypes.__main__ import main
+main(["predict", "--json", *sys.argv[1:]])
+"""
+    said = []
+    for user, variables in (("", {}), (NOBODY, HOSTILE | ELSEWHERE)):
+        drawn = tmp_path / f"drawn{len(said)}.png"
+        done = subprocess.run(
+            [sys.executable, "-c", user + code, *shown, "--picture", str(drawn)],
+            env={**os.environ, "GRASPTYPES_BACKBONE_WEIGHTS": str(weights.path), **variables},
+            capture_output=True,
+            text=True,
+            check=False,
+        )
+        assert done.returncode == 0, done.stderr
+        said.append((done.stdout, drawn.read_bytes()))
+    assert said[0] == said[1]
 
 
 def test_the_workflow_pins_its_jobs():
