@@ -10,38 +10,23 @@ import numpy as np
 import trimesh
 from case import PARAMS, Case, Content, library, script
 
-from grasptypes.contact_maps.contact_map import ContactMap
+from grasptypes.contact_maps.contact_map import ContactMap, MapTask, sample_surface
 from grasptypes.contact_maps.contact_map_files import read_contact_map, write_contact_map
 from grasptypes.files import write_npz
-from grasptypes.objects.object_files import Properties, Surface, write_properties, write_surface
+from grasptypes.objects.object_files import Surface
+from grasptypes.settings.contact_maps import ContactMapSettings
 
 COARSE = trimesh.creation.cylinder(0.03, 0.1, sections=24)
 ROD = trimesh.Trimesh(*trimesh.remesh.subdivide_to_size(COARSE.vertices, COARSE.faces, 0.006))
-SETTINGS = PARAMS["contact_maps"] | {"points": 300, "sessions": 1, "unit": "m"}
-INPUTS = {"surface": "surface.npz", "properties": "properties.json", "measured": "warm.ply"}
-
-
-def write_rod(path: Path) -> None:
-    """The surface of a prepared object."""
-    index = np.zeros(len(ROD.vertices), np.int16)
-    write_surface(path, Surface(ROD.vertices, ROD.faces.astype(np.int32), index, np.array(["rod"])))
-
-
-def write_rod_properties(path: Path) -> None:
-    """What else is known of it."""
-    eye, zero = np.eye(3).tolist(), [0.0, 0.0, 0.0]
-    write_properties(
-        path, Properties("rod", 1.0, 1.0, zero, eye, 1e3, None, 1e-4, True, [zero, zero], [])
-    )
+SETTINGS = ContactMapSettings.check(PARAMS["contact_maps"] | {"sessions": 1})
+SURFACE = Surface(ROD.vertices, ROD.faces, np.zeros(len(ROD.vertices), np.int16), np.array(["rod"]))
+TASK = MapTask(sample_surface(SURFACE, 300, 0), ["rod"], ("rod", "use"), 0, 1.0, SETTINGS)
 
 
 def measured(what: str, content: Content, *names: str, name: str = "warm.ply") -> Case:
     """A map that `objects.own.rod.contact_maps.use` names."""
-    files = {"surface.npz": write_rod, "properties.json": write_rod_properties, name: content}
-    arguments = (INPUTS | {"measured": name}, "map.npz", ("rod", "use"), 0, SETTINGS)
-    return Case(
-        "contact map", what, files, script("map_contacts", "write_map", *arguments), (name, *names)
-    )
+    draw = script("map_contacts", "draw_map", TASK, [], name, "m")
+    return Case("contact map", what, {name: content}, draw, (name, *names))
 
 
 def ply(

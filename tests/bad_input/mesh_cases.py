@@ -8,7 +8,12 @@ from pathlib import Path
 
 import numpy as np
 import trimesh
-from case import PARAMS, Case, Content, script
+from case import PARAMS, Case, Content, library
+
+from grasptypes.objects.mesh_import import import_model
+from grasptypes.settings.objects import ImportLimits, OwnObject
+
+LIMITS = ImportLimits.check(PARAMS["objects"]["import"]).changed(rebuild_cells=32)
 
 BOX = trimesh.creation.box((0.05, 0.05, 0.05))
 VERTICES, FACES = BOX.vertices.tolist(), (BOX.faces + 1).tolist()
@@ -25,15 +30,8 @@ GLB_WITH_99 = GLB[:LAST_INDEX] + struct.pack("<I", 99) + GLB[LAST_INDEX + 4 :]
 
 def mesh(what: str, name: str, content: Content, *names: str, unit: str = "m") -> Case:
     """A mesh that `objects.own.thing` names."""
-    own = {"file": name, "unit": unit, "density_kg_m3": 1000.0}
-    objects = PARAMS["objects"]
-    settings = {
-        "resolution": objects["resolution"],
-        "import": objects["import"] | {"rebuild_cells": 32},
-        "own": own,
-    }
-    job = script("prepare_object", "prepare_object", "thing", settings, Path("thing"))
-    return Case("mesh", what, {name: content}, job, (name, *names))
+    own = OwnObject(file=name, unit=unit, density_kg_m3=1000.0)
+    return Case("mesh", what, {name: content}, library(import_model, own, LIMITS), (name, *names))
 
 
 def obj(vertices: Iterable[Iterable[object]], faces: Iterable[Iterable[object]]) -> str:
@@ -68,7 +66,7 @@ def huge_stl(path: Path) -> None:
 
 def fine_ply(path: Path) -> None:
     """A square of more faces than are allowed, in a file that is small enough."""
-    side = int((PARAMS["objects"]["import"]["max_faces"] / 2) ** 0.5) + 2
+    side = int((LIMITS.max_faces / 2) ** 0.5) + 2
     corner = (np.arange((side - 1) ** 2) // (side - 1)) * side + np.arange((side - 1) ** 2) % (
         side - 1
     )
