@@ -69,7 +69,10 @@ CASES = [
     change("an object called missing", {"objects": {"own": {"null": BOX}}}, "own", "'null'"),
     change("an unknown unit", {"objects": {"own": {"box": BOX | {"unit": "ell"}}}}, "own.box.unit"),
     change(
-        "mass and density", {"objects": {"own": {"box": BOX | {"density_kg_m3": 1}}}}, "own.box"
+        "mass and density",
+        {"objects": {"own": {"box": BOX | {"density_kg_m3": 1}}}},
+        "own.box",
+        "exactly one of density_kg_m3 and mass_kg",
     ),
     change("a mesh that is not there", {"objects": {"own": {"box": BOX}}}, "box.stl"),
     change("an own name of the catalogue", {"objects": {"own": {"mug": BOX}}}, "objects.own.mug"),

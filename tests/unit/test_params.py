@@ -9,7 +9,7 @@ from grasptypes.errors import InputError
 from grasptypes.settings.base import Settings
 from grasptypes.settings.params import Params, read_params
 from grasptypes.settings.schema import PLACE, write_schema
-from grasptypes.yaml_files import merge, read_yaml
+from grasptypes.yaml_files import merge
 
 ROOT = Path(__file__).parents[2]
 BOX = {"file": "box.stl", "unit": "m", "mass_kg": 0.1}
@@ -22,26 +22,17 @@ def test_the_parameters_of_the_project_are_allowed():
 @pytest.mark.parametrize(
     ("change", "line"),
     [
-        ({"tasks": {"use": {"color_shift": 10}}}, "tasks.use: 'color_shift' is not a known key"),
         ({"seed": "one"}, "seed: 'one' is not an integer (integer, part of the key"),
         ({"seed": -1}, "seed: -1 is less than the minimum of 0 ("),
         ({"tasks": ["use"]}, "tasks: ['use'] is not a mapping"),
         ({"tasks": {"use": {"colour_shift": 999}}}, "tasks.use.colour_shift: 999 is greater than"),
-        ({"tasks": {"Bad Name": {"colour_shift": 1}}}, "tasks: 'Bad Name' is invalid: use"),
         ({"tasks": {"none": {"colour_shift": 1}}}, "tasks.none: 'none' stands for no task"),
         (
             {"tasks": {"give": {"colour_shift": 10}}},
             "tasks.give.colour_shift: 10 is also that of use",
         ),
         ({"objects": {"scale": 0}}, "objects.scale: 0 is not greater than 0 (size relative to"),
-        ({"objects": {"names": ["mug", "pot"]}}, "objects.names.1: 'pot' is not in the catalogue"),
-        ({"objects": {"names": []}}, "objects.names: is empty, and so is objects.own"),
         ({"objects": {"variation": {"size": [2, 1]}}}, "objects.variation.size: 2 is above 1"),
-        ({"objects": {"own": {"mug": BOX}}}, "objects.own.mug: is also in objects.names"),
-        (
-            {"objects": {"own": {"box": BOX | {"density_kg_m3": 1}}}},
-            "objects.own.box: needs exactly one of density_kg_m3 and mass_kg",
-        ),
         (
             {"objects": {"own": {"box": BOX | {"contact_maps": {"drink": "d.ply"}}}}},
             "objects.own.box.contact_maps: 'drink' is not one of use, handoff",
@@ -53,7 +44,6 @@ def test_the_parameters_of_the_project_are_allowed():
         ),
         ({"labels": []}, "labels: [] has 0 values, at least 1 are needed"),
         ({"predictors": {"hidden": [1, 2]}}, "predictors.hidden: has 2 values, more are needed"),
-        ({"renders": {"fill": float("nan")}}, "renders.fill: nan is not a finite number"),
     ],
 )
 def test_the_first_mistake_is_one_line(change: dict, line: str):
@@ -99,28 +89,6 @@ def test_settings_import_no_heavy_library():
     code = "import sys, grasptypes.settings.params; print(*sys.modules)"
     found = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert not {"numpy", "torch", "numba", "trimesh", "scipy"} & set(found.stdout.split())
-
-
-@pytest.mark.parametrize(
-    ("text", "problem"),
-    [
-        (b"", "must contain a mapping"),
-        (b"- a\n- b\n", "must contain a mapping"),
-        (b"seed: 1\nseed: 2\n", "line 2: .*duplicate key 'seed'"),
-        (b"seed: [1\n", "not valid YAML"),
-        (b"seed: !!python/object/apply:os.system [ls]\n", "not valid YAML"),
-        (b"\xff\xfe\x00", "UTF-8"),
-        (None, "no such file"),
-    ],
-)
-def test_unusable_yaml_is_refused(tmp_path: Path, text: bytes | None, problem: str):
-    path = tmp_path / "params.yaml"
-    if text is not None:
-        path.write_bytes(text)
-    with pytest.raises(InputError, match=problem) as raised:
-        read_yaml(path)
-    assert str(path) in str(raised.value)
-    assert "\n" not in str(raised.value)
 
 
 def test_merge_replaces_lists_and_keeps_the_rest():
