@@ -35,6 +35,16 @@ SETTINGS = PARAMS.predictors.changed(
     dropout=0.0,
     finetuning=FineTuning(last_blocks=1, learning_rate=1e-4, epochs=2, batch=8),
 )
+# A checkout whose plans take seconds.
+SMALL_PLANS = {
+    "renders": {"size_px": 96},
+    "predict": {"views": 2},
+    "gallery": {"size_px": 64, "tile_px": 64},
+    "synthesis": {"candidates": {"number": 150}, "refinement": {"rounds": 1}},
+    "contact_maps": {"points": 1500},
+    "objects": {"resolution": {"surface_edge_m": 0.006, "grid_spacing_m": 0.004}},
+    "plan": {"sessions": 3, "shown": 2},
+}
 
 
 def samples() -> pd.DataFrame:

@@ -6,7 +6,7 @@ import numpy as np
 import pandas as pd
 import pytest
 import trimesh
-from learning import ROOT, small_checkout
+from learning import ROOT, SMALL_PLANS, small_checkout
 from PIL import Image
 
 from grasptypes.__main__ import main
@@ -24,22 +24,13 @@ from grasptypes.planning.planner import choose, ranked
 from grasptypes.predictors.weights import WEIGHTS_VARIABLE
 from grasptypes.settings.params import read_params
 
-SESSIONS = 3
-SMALL = {
-    "renders": {"size_px": 96},
-    "predict": {"views": 2},
-    "gallery": {"size_px": 64, "tile_px": 64},
-    "synthesis": {"candidates": {"number": 150}, "refinement": {"rounds": 1}},
-    "contact_maps": {"points": 1500},
-    "objects": {"resolution": {"surface_edge_m": 0.006, "grid_spacing_m": 0.004}},
-    "plan": {"sessions": SESSIONS, "shown": 2},
-}
+SESSIONS = SMALL_PLANS["plan"]["sessions"]
 
 
 @pytest.fixture(scope="module")
 def checkout(tmp_path_factory):
     root = tmp_path_factory.mktemp("checkout")
-    small_checkout(root, SMALL)
+    small_checkout(root, SMALL_PLANS)
     (root / "assets").symlink_to(ROOT / "assets")
     return root
 
@@ -248,7 +239,7 @@ def test_a_session_gives_its_grasp_of_a_wanted_type():
 def test_a_predictor_that_is_missing_is_named(mesh, tmp_path, monkeypatch):
     root = tmp_path / "bare"
     root.mkdir()
-    small_checkout(root, SMALL)
+    small_checkout(root, SMALL_PLANS)
     (root / "models/simulated/task_vector/predictor.json").unlink()
     with pytest.raises(SystemExit, match=r"predictor\.json: is not trained yet"):
         plan(root, mesh, tmp_path / "out", "--task", "use")
