@@ -76,12 +76,12 @@ CASES = [
     cell("an unknown task", "Intent", "throw", "handoff, use"),
     cell("16 numbers", "HandConfiguration", POSE.rsplit(",", 1)[0], "16 numbers instead of 17"),
     cell("NaN in a pose", "HandConfiguration", POSE.replace("0.3", "nan"), "finite"),
-    cell("a pose that is no rotation", "HandConfiguration", "0,2" + POSE[3:], "no rotation"),
+    cell("a pose that is no rotation", "HandConfiguration", "0,2" + POSE[3:], "no valid rotation"),
     cell("millimetres", "HandConfiguration", POSE.replace("0.3", "300"), "metres"),
     cell("degrees", "HandConfiguration", POSE.replace("1.2", "120"), "radians"),
     cell("NaN", "Error", "nan", "finite"),
     cell("session 0", "Session", "0", "from 1 up"),
-    cell("half a session", "Session", "1.5", "whole number"),
+    cell("half a session", "Session", "1.5", "not an integer"),
     fetched(
         "a host that is away", f"http://127.0.0.1:9/t.csv#sha256={SHA256}", "127.0.0.1:9", "path"
     ),

@@ -44,7 +44,7 @@ def test_braces_in_the_path_of_a_checkout_are_refused(fresh: Repository, tmp_pat
     repository = fresh.copy(tmp_path / "{a}")
     for command in (["snakemake", "-n"], ["make", "setup"]):
         output = repository.run(*command, check=False)
-        assert "braces for wildcards" in output
+        assert "braces as wildcards" in output
         assert "Traceback" not in output
 
 

@@ -62,7 +62,7 @@ def test_jobs_start_only_for_who_holds_the_folder(repository: Repository) -> Non
     half.touch()
     lock = FolderLock(repository.path / ".snakemake")
     assert lock.take()
-    message = f"another run holds this folder: process {os.getpid()}"
+    message = f"another run is active in this folder: process {os.getpid()}"
     assert message in repository.run("snakemake", "-n", OBJECT)
     assert message in repository.run("snakemake", "-j1", OBJECT, check=False)
     assert half.exists()

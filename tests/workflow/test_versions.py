@@ -149,7 +149,7 @@ def test_a_second_run_is_refused_and_a_killed_one_goes_on(
             assert first.poll() is None, log.read_text()
             time.sleep(0.1)
         said = changed.run("snakemake", "-j2", check=False)
-        assert re.search(r"another run holds this folder: process \d+", said)
+        assert re.search(r"another run is active in this folder: process \d+", said)
         assert "Execute" not in said
         assert "Job stats" in changed.run("snakemake", "-n")  # a dry run reads along
     finally:

@@ -24,13 +24,13 @@ LARGEST_ANGLE_RAD = 2 * np.pi
 
 def _whole(text: str) -> int:
     if not text.lstrip("-").isdecimal():
-        raise ValueError(f"{text!r} is not a whole number")
+        raise ValueError(f"{text!r} is not an integer")
     return int(text)
 
 
 def _count(text: str) -> int:
     if _whole(text) < 1:
-        raise ValueError(f"{text} is not a whole number from 1 up")
+        raise ValueError(f"{text} is not a positive integer")
     return int(text)
 
 
@@ -78,16 +78,16 @@ def parse_configuration(text: str) -> NDArray[np.float64] | None:
     if len(numbers) != configuration.LENGTH:
         raise ValueError(f"has {len(numbers)} numbers instead of {configuration.LENGTH}")
     if numbers[0] < 0 or numbers[0] % 1:
-        raise ValueError(f"its rank index {numbers[0]} is not a whole number from 0 up")
+        raise ValueError(f"its rank index {numbers[0]} is not a non-negative integer")
     hand = configuration.unpack(numbers)
     rotation = hand.T_object_hand[:3, :3]
     error = np.abs(rotation @ rotation.T - np.eye(3)).max()
     if error > RIGID_TOLERANCE or np.linalg.det(rotation) < 0:
-        raise ValueError("its 3x4 pose holds no rotation (orthonormal, right-handed)")
+        raise ValueError("its 3x4 pose has no valid rotation (orthonormal, right-handed)")
     if np.abs(hand.T_object_hand[:3, 3]).max() > FARTHEST_PALM_M:
-        raise ValueError(f"its palm is more than {FARTHEST_PALM_M:g} m away: metres are needed")
+        raise ValueError(f"its palm is more than {FARTHEST_PALM_M:g} m away: give metres")
     if np.abs(hand.dofs_rad).max() > LARGEST_ANGLE_RAD:
-        raise ValueError("its joints turn by more than 2 pi: radians are needed")
+        raise ValueError("its joints turn by more than 2 pi: give radians")
     return numbers
 
 
@@ -127,7 +127,7 @@ def read_published(path: str | Path) -> pd.DataFrame:
     if missing:
         raise InputError(path, missing[0], "this column is missing")
     if cells.empty:
-        raise InputError(path, "", "holds no grasps, only the names of its columns")
+        raise InputError(path, "", "has a header but no grasps")
     table = pd.DataFrame(
         {ours: _read_column(path, cells[theirs], read) for theirs, ours, read in COLUMNS}
     )
@@ -135,7 +135,7 @@ def read_published(path: str | Path) -> pd.DataFrame:
     if repeated.any():
         row = int(repeated.to_numpy().argmax())
         key = f"line {row + 2}"
-        raise InputError(path, key, "this object, task and session are there twice")
+        raise InputError(path, key, "this object, task and session appear twice")
     return table
 
 
@@ -146,7 +146,7 @@ def _read_cells(path: Path) -> pd.DataFrame:
         header = next(csv.reader(text.splitlines()[:1]), [])
         twice = [name for name in header if header.count(name) > 1]
         if twice:
-            raise InputError(path, twice[0], "this column is there twice")
+            raise InputError(path, twice[0], "this column appears twice")
         return pd.read_csv(io.StringIO(text), dtype=str, keep_default_na=False)
     except (FileNotFoundError, IsADirectoryError) as error:
         raise InputError(path, "", "no such file") from error

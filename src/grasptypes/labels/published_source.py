@@ -67,10 +67,10 @@ def fetch_published(environment: Mapping[str, str], path: str | Path, timeout_s:
     """
     address = published_address(environment)
     if address is None:
-        raise InputError(PUBLISHED, "", "names no URL to fetch the published table from")
+        raise InputError(PUBLISHED, "", "is not a URL to download the published table from")
     try:
         download(address.url, path, address.sha256, timeout_s)
     except DownloadError as error:
-        message = f"{error}; get the file another way and name its path instead"
+        message = f"{error}; download the file by other means and set its path instead"
         raise InputError(PUBLISHED, "", message) from error
     return address

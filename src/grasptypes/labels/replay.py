@@ -76,7 +76,7 @@ def read_reference_mesh(path: str | Path, scale: float) -> trimesh.Trimesh:
     with parsing(path, "cannot be read as a mesh"):
         mesh = trimesh.load_mesh(path)
     if not isinstance(mesh, trimesh.Trimesh) or len(mesh.faces) == 0:
-        raise InputError(path, "", "holds no triangles")
+        raise InputError(path, "", "has no triangles")
     mesh.apply_scale(scale)
     lower, upper = mesh.bounds
     middle = (lower + upper) / 2.0

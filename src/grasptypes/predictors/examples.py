@@ -84,7 +84,7 @@ def _inputs(
     part = inputs[name][encoding]
     if len(part) != views:
         raise InputError(
-            f"data/features/{name}.npz", encoding, f"{len(part)} pictures, but folds of {views}"
+            f"data/features/{name}.npz", encoding, f"{len(part)} images, but folds of {views}"
         )
     return part
 

@@ -51,9 +51,9 @@ def read_pictures(path: str | Path) -> np.ndarray:
             with Image.open(io.BytesIO(content)) as picture:
                 pictures.append(np.asarray(picture.convert("RGB")))
         except (UnidentifiedImageError, OSError) as error:
-            raise InputError(path, name, f"not a picture: {error}") from error
+            raise InputError(path, name, f"not an image: {error}") from error
     if not pictures:
-        raise InputError(path, "", "holds no pictures")
+        raise InputError(path, "", "contains no images")
     return np.stack(pictures)
 
 

@@ -46,7 +46,7 @@ def split(views: Mapping[str, int], folds: int, seed: int) -> pd.DataFrame:
             raise InputError(
                 "params.yaml",
                 "folds.count",
-                f"{folds} folds need as many views; {name} has {count}",
+                f"{folds} folds need at least as many views; {name} has {count}",
             )
         # Continue counting from object to object, so that leftover images do not pile up in fold 0.
         fold = (before + np.arange(count)) % folds

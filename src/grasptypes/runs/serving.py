@@ -49,12 +49,14 @@ class GraspTypePredictor(PythonModel):
         outputs = len(self._predictor.card.types)
         logits = np.zeros((len(pictures), outputs), dtype=np.float32)
         if len(tasks) != len(pictures):
-            raise _refusal(f"{len(pictures)} images, but {len(tasks)} tasks: one each is needed")
+            raise _refusal(
+                f"{len(pictures)} images, but {len(tasks)} tasks: one task per image is needed"
+            )
         if pictures.ndim != 4 or min(pictures.shape) == 0:
             raise _refusal(f"image has shape {pictures.shape} instead of (N, height, width, 3)")
         if min(pictures.shape[1:3]) < MIN_PX:
             size = f"{pictures.shape[2]} x {pictures.shape[1]}"
-            raise _refusal(f"image is {size} pixels; each side needs {MIN_PX}")
+            raise _refusal(f"image is {size} pixels; each side needs at least {MIN_PX}")
         # MLflow has already truncated such values to 0 and 1, nearly all of them to 0.
         if pictures.max(axis=(1, 2, 3)).min() <= 1:
             raise _refusal("image has no value above 1: values from 0 to 255 are needed")

@@ -107,7 +107,7 @@ class Store:
                 yield
         except (OSError, sqlite3.Error, MlflowException, SQLAlchemyError) as error:
             reason = str(error).split("\n")[0]
-            later = "results do not depend on it; show them later with: make publish"
+            later = "results are not affected; publish them later with: make publish"
             raise InputError(self.database, "", f"cannot be written: {reason}; {later}") from error
 
     def page(self) -> str:

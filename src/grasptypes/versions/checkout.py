@@ -31,7 +31,9 @@ def copy_checkout(source: str | Path, target: str | Path, changes: str | Path) -
         InputError: ``source`` is not a checkout, a YAML file cannot be read, or git is missing.
     """
     if shutil.which("git") is None:
-        raise InputError("git", "", "is not installed; it tells which files belong to a checkout")
+        raise InputError(
+            "git", "", "is not installed; it is needed to list the files of a checkout"
+        )
     source, target = Path(source), Path(target)
     command = ["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"]
     listing = subprocess.run(command, cwd=source, capture_output=True, text=True, check=False)

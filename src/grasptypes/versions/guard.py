@@ -46,7 +46,7 @@ class FolderLock:
             self._lock.acquire()
         except Timeout:
             owner = self.path.read_text() or "unknown"
-            sys.stderr.write(f"another run holds this folder: process {owner}\n")
+            sys.stderr.write(f"another run is active in this folder: process {owner}\n")
             return False
         room = self.path.with_name("room.test")
         write_bytes(room, bytes(ROOM_BYTES))
@@ -79,7 +79,7 @@ def check_cache_links(root: str | Path) -> None:
     """
     for path in (Path(root) / ".dvc" / name for name in ("config", "config.local")):
         settings = configparser.ConfigParser(strict=False, interpolation=None)
-        with parsing(path, "is no configuration of DVC"):
+        with parsing(path, "is not a valid DVC configuration"):
             settings.read(path, encoding="utf-8")
         types = settings.get("cache", "type", fallback="").strip("\"'")
         if "link" in types.replace("reflink", ""):

@@ -61,7 +61,7 @@ def adopt_provenance(root: Path) -> None:
     if now == "missing" or (adopted.exists() and adopted.read_text() == now):
         return
     records = FilePersistence(path=root / ".snakemake")
-    with parsing(PROVENANCE, "is damaged; get it anew with: dvc checkout --force"):
+    with parsing(PROVENANCE, "is damaged; restore it with: dvc checkout --force"):
         for made in json.loads((root / PROVENANCE).read_text(encoding="utf-8")):
             outputs = made.pop("outputs")
             for name, checksum in outputs.items():

@@ -58,17 +58,17 @@ def test_keeps_none_when_no_row_has_a_configuration(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("column", "cell", "said"),
     [
-        ("Index", "", "whole number"),
+        ("Index", "", "not an integer"),
         ("Object", " ", "empty"),
         ("Intent", "throw", "handoff, use"),
         ("Session", "0", "from 1 up"),
-        ("Session", "1.5", "whole number"),
+        ("Session", "1.5", "not an integer"),
         ("GraspType", "Large wrap", "Large Wrap"),
         ("GraspTypeIndex", "8", "from 1 to 7"),
-        ("Rank", "-", "whole number"),
+        ("Rank", "-", "not an integer"),
         ("Error", "nan", "finite"),
         ("Error", "much", "not a number"),
-        ("PoseIndex", "1e3", "whole number"),
+        ("PoseIndex", "1e3", "not an integer"),
         ("HandConfiguration", "0,1,2", "3 numbers instead of 17"),
         ("HandConfiguration", CONFIGURATION.replace("0.3", "nan"), "finite"),
         ("HandConfiguration", CONFIGURATION.replace("0.3", "x"), "'x' is not a number"),
@@ -97,7 +97,7 @@ def test_missing_column_is_named(tmp_path: Path) -> None:
 
 def test_repeated_session_is_named(tmp_path: Path) -> None:
     path = write(tmp_path / "table.csv", {}, {"Session": "1"})
-    with pytest.raises(InputError, match="line 3: this object, task and session are there twice"):
+    with pytest.raises(InputError, match="line 3: this object, task and session appear twice"):
         read_published(path)
 
 

@@ -49,7 +49,7 @@ def test_pictures_survive_the_archive(pictures, tmp_path):
         (b"no archive", "ZIP"),
         (zip_bytes({"000.png": b"no picture"}), r"000\.png"),
         (zip_bytes({"000.png": png(np.zeros((99, 99, 3), np.uint8))[:60]}), r"000\.png"),
-        (zip_bytes({}), "no pictures"),
+        (zip_bytes({}), "no images"),
     ],
 )
 def test_damaged_archives_are_refused(tmp_path, content, message):

@@ -63,7 +63,7 @@ def test_as_many_folds_as_pictures_leave_one_picture_out():
 def test_more_folds_than_pictures():
     with pytest.raises(InputError) as caught:
         split(VIEWS, 11, seed=0)
-    expected = "params.yaml: folds.count: 11 folds need as many views; mug has 10"
+    expected = "params.yaml: folds.count: 11 folds need at least as many views; mug has 10"
     assert str(caught.value) == expected
 
 

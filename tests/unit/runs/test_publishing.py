@@ -231,5 +231,5 @@ def test_a_store_that_cannot_be_written_is_named_at_once(tmp_path, spoilt, reaso
     ):
         pass
     assert time.monotonic() - begun < 5
-    assert str(error.value).endswith("show them later with: make publish")
+    assert str(error.value).endswith("publish them later with: make publish")
     assert "\n" not in str(error.value)

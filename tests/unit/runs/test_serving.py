@@ -56,7 +56,7 @@ def test_the_least_size_is_that_of_the_command():
 @pytest.mark.parametrize(
     ("tasks", "pictures", "message"),
     [
-        (["use"], PICTURES[:1, :20], "image is 80 x 20 pixels; each side needs 32"),
+        (["use"], PICTURES[:1, :20], "image is 80 x 20 pixels; each side needs at least 32"),
         (TASKS, PICTURES // 255, "values from 0 to 255 are needed"),
         (["use", "fly"], PICTURES, "fly: unknown; allowed: use, handoff, wash"),
         (["use"], PICTURES, "2 images, but 1 tasks"),

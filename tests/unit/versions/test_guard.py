@@ -33,7 +33,7 @@ def test_a_living_run_is_named_and_a_killed_one_leaves_no_lock(
     lock = FolderLock(tmp_path, patience_s=0.2)
     try:
         assert not lock.take()
-        message = f"another run holds this folder: process {process.pid}\n"
+        message = f"another run is active in this folder: process {process.pid}\n"
         assert capsys.readouterr().err == message
     finally:
         process.send_signal(signal.SIGKILL)
@@ -75,7 +75,7 @@ def test_what_a_killed_run_left_is_removed(tmp_path: Path) -> None:
     ("content", "message"),
     [
         ('[cache]\n    type = "reflink,hardlink"\n    dir = /a%b\n', "'reflink,hardlink' would"),
-        ("type = copy\n", "is no configuration of DVC"),
+        ("type = copy\n", "is not a valid DVC configuration"),
     ],
 )
 def test_a_cache_of_links_is_refused(tmp_path: Path, content: str, message: str) -> None:

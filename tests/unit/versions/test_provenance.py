@@ -94,7 +94,7 @@ def test_a_file_that_is_another_gets_no_record(clone: Path) -> None:
 
 def test_a_damaged_provenance_is_named_with_the_cure(clone: Path) -> None:
     (clone / PROVENANCE).write_text('[{"rule": ')
-    with pytest.raises(InputError, match=r"provenance\.json: is damaged; get it anew with: dvc"):
+    with pytest.raises(InputError, match=r"provenance\.json: is damaged; restore it with: dvc"):
         adopt_provenance(clone)
     assert not (clone / ADOPTED).exists()
 
