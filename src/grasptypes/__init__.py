@@ -6,7 +6,7 @@
     answer = grasptypes.Predictor.load().predict(mug, task="use")
     plan = grasptypes.Planner().plan(mug, "use", ["Power Sphere"])
 
-What stands here is imported when it is used, so that `import grasptypes` costs next to nothing.
+Names are imported when they are used, so that `import grasptypes` is fast.
 
 The commands and the workflow compute with one thread and the instructions that all processors with
 AVX2 have, so that the last digit does not depend on the machine. A process that has imported NumPy

@@ -45,46 +45,50 @@ CASES = [
     asked("no command", (), "arguments are required: COMMAND"),
     asked("an unknown command", ("guess",), "invalid choice: 'guess'"),
     asked("an unknown option", (*ASK, "--colour"), "--colour"),
-    asked("neither picture nor mesh", ("predict", "--task", "use"), "--image --object is required"),
+    asked("neither image nor mesh", ("predict", "--task", "use"), "--image --object is required"),
     asked("an unknown unit", (*ASK, "--unit", "ell"), "--unit", "'ell'"),
-    asked("a unit for a picture", (*ASK, "--unit", "mm"), "--unit: mm: is for meshes"),
-    asked("a picture that is not there", ("predict", "--image", "no.png"), "no.png: no such file"),
+    asked("a unit for an image", (*ASK, "--unit", "mm"), "--unit: mm: is for meshes"),
+    asked("a missing image", ("predict", "--image", "no.png"), "no.png: no such file"),
     asked("another folder", (*ASK, "--folder", "no"), "no/params.yaml", "--folder"),
-    asked("a drawing that is no PNG", (*ASK, "--picture", "cup.jpg"), "cup.jpg", ".png"),
-    asked("a drawing over the picture", (*ASK, "--picture", "cup.png"), "cup.png: is one of the"),
+    asked("a figure that is not a PNG", (*ASK, "--picture", "cup.jpg"), "cup.jpg", ".png"),
     asked(
-        "a drawing among the pictures",
+        "a figure that overwrites the image",
+        (*ASK, "--picture", "cup.png"),
+        "cup.png: is one of the",
+    ),
+    asked(
+        "a figure among the images",
         ("predict", "--image", ".", "--task", "use", "--picture", "answer.png"),
         "answer.png: is in the folder of input images",
     ),
     Case(
         "command",
-        "a bad picture in a folder",
+        "a bad image in a folder",
         FOLDER | {"cups/a.png": WHOLE, "cups/b.png": "no picture"},
         command("predict", "--image", "cups", "--task", "use"),
         ("cups/b.png: not an image",),
     ),
     asked(
-        "a drawing where none can be made",
+        "a figure that cannot be written",
         (*ASK, "--picture", "/proc/cup.png"),
         "/proc/cup.png: cannot be created",
     ),
     asked("an unknown model", (*ASK, "--model", "e"), "--model: e", "task_vector"),
     asked("unknown labels", (*ASK, "--labels", "../.."), "--labels: ../..", "simulated, published"),
-    asked("a model that is not trained", ASK, f"{MODEL}/predictor.safetensors", "snakemake -j2"),
+    asked("an untrained model", ASK, f"{MODEL}/predictor.safetensors", "snakemake -j2"),
     asked(
         "a damaged card", ASK, "predictor.json", "not a predictor's card", safetensors=b"", json="{"
     ),
     Case(
         "command",
-        "changes that are no YAML",
+        "changes that are not YAML",
         {"small.yaml": "seed: [1\n"},
         library(lambda changes: copy_checkout(ROOT, "copy", changes), "small.yaml"),
         ("small.yaml", "line 2"),
     ),
-    exchanged("no XML", "world.xml", "<world>", read_world, "not a GraspIt! world"),
+    exchanged("not XML", "world.xml", "<world>", read_world, "not a GraspIt! world"),
     exchanged("a world without a hand", "world.xml", "<world/>", read_world, "one Barrett robot"),
-    exchanged("no JSON", "grasps.json", "{", read_grasps, "is not a JSON file"),
+    exchanged("not JSON", "grasps.json", "{", read_grasps, "is not a JSON file"),
     exchanged(
         "another gripper",
         "grasps.json",
@@ -94,6 +98,6 @@ CASES = [
     ),
     exchanged("a pickle with code", "grasp.npy", with_code, read_grasp, "not an array"),
     exchanged(
-        "a pickle alone", "grasp.npy", pickle.dumps(Code()), read_grasp, "not a DexGraspBench grasp"
+        "a bare pickle", "grasp.npy", pickle.dumps(Code()), read_grasp, "not a DexGraspBench grasp"
     ),
 ]

@@ -77,10 +77,12 @@ CASES = [
     measured("another format", "x", "PLY", name="warm.png"),
     measured("text named .ply", "warm\n", "cannot be read as PLY"),
     measured("truncated", ply(spread(10, 200))[:-400].rpartition("\n")[0], "vertex", "truncated"),
-    measured("fewer rows than promised", ply(spread(10, 200), count=50_000), "vertex", "50000"),
+    measured(
+        "fewer rows than the header says", ply(spread(10, 200), count=50_000), "vertex", "50000"
+    ),
     measured("no colours", ply(columns=""), "no vertex colours"),
     measured("a red channel alone", ply(columns="red"), "no vertex colours"),
-    measured("words for colours", ply(red="warm"), "cannot be read as PLY"),
+    measured("text instead of colours", ply(red="warm"), "cannot be read as PLY"),
     measured("a byte of 300", ply(spread(300, 20)), "red: is 300 at vertex 0", "0 to 255"),
     measured("a negative number", ply(spread(-3, 20), kind="int"), "red: is -3 at vertex 0"),
     measured("a share of 2", ply(spread(2.0, 0.5), kind="float"), "red: is 2.0", "0 to 1"),

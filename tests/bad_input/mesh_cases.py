@@ -89,15 +89,17 @@ CASES = [
     mesh("empty", "cup.stl", b"", "not a complete STL"),
     mesh("text named .stl", "cup.stl", "a cup\n", "not a complete STL"),
     mesh("a truncated binary STL", "cup.stl", STL[:300], "not a complete STL"),
-    mesh("a truncated STL in text", "cup.stl", TEXT_STL[:-300], "not a complete STL"),
-    mesh("a truncated PLY in text", "cup.ply", TEXT_PLY[:-30], "face", "truncated"),
+    mesh("a truncated text STL", "cup.stl", TEXT_STL[:-300], "not a complete STL"),
+    mesh("a truncated text PLY", "cup.ply", TEXT_PLY[:-30], "face", "truncated"),
     mesh("a truncated PLY", "cup.ply", PLY[:-50], "cannot be read as a mesh"),
     mesh("a truncated GLB", "cup.glb", GLB[:-200], "cannot be read as a mesh"),
-    mesh("noise named .glb", "cup.glb", np.random.default_rng(0).bytes(500), "cannot be read"),
+    mesh(
+        "random bytes named .glb", "cup.glb", np.random.default_rng(0).bytes(500), "cannot be read"
+    ),
     mesh("a GLB without its data", "cup.glb", GLB_WITHOUT_DATA, "cannot be read as a mesh"),
     mesh("a misspelt PLY", "cup.ply", PLY.replace(b"list", b"lost"), "cannot be read as a mesh"),
     mesh(
-        "a PLY that promises billions",
+        "a PLY header with billions of vertices",
         "cup.ply",
         PLY.replace(b"vertex 8", b"vertex 3000000000"),
         "cannot be read",
@@ -105,24 +107,26 @@ CASES = [
     mesh("NaN in text", "cup.obj", obj(first("nan"), FACES), "NaN"),
     mesh("NaN in a binary file", "cup.stl", stl_with(float("nan")), "NaN"),
     mesh("infinity", "cup.obj", obj(first("inf"), FACES), "not finite"),
-    mesh("words for numbers", "cup.obj", obj(first("one"), FACES), "cannot be read as a mesh"),
     mesh(
-        "a face of a vertex that is not there",
+        "text instead of numbers", "cup.obj", obj(first("one"), FACES), "cannot be read as a mesh"
+    ),
+    mesh(
+        "a face with a missing vertex",
         "cup.obj",
         obj(VERTICES, [*FACES, (1, 2, 99)]),
         "cannot be read",
     ),
     mesh(
-        "a face of a vertex that a PLY does not hold",
+        "a PLY face with a missing vertex",
         "cup.ply",
         ply_with(99),
         "face: ",
         "99",
         "has 8",
     ),
-    mesh("a face of a negative vertex", "cup.ply", ply_with(-1), "face: ", "-1", "has 8"),
+    mesh("a PLY face with a negative vertex", "cup.ply", ply_with(-1), "face: ", "-1", "has 8"),
     mesh(
-        "a face of a vertex that a GLB does not hold",
+        "a GLB face with a missing vertex",
         "cup.glb",
         GLB_WITH_99,
         "face: ",
@@ -138,6 +142,6 @@ CASES = [
     mesh("a wrong unit", "cup.stl", STL, "unit", "5e-05 m", "m would fit", unit="mm"),
     mesh("ten million faces", "cup.stl", huge_stl, "500 MB", "the limit is 250 MB"),
     mesh("more faces than allowed", "cup.ply", fine_ply, "faces; the limit is 1000000"),
-    mesh("a format that is no mesh", "cup.step", "ISO-10303-21;\n", ".stl, .obj, .ply, .glb"),
+    mesh("not a mesh format", "cup.step", "ISO-10303-21;\n", ".stl, .obj, .ply, .glb"),
     mesh("a folder named .stl", "cup.stl", Path.mkdir, "no such file"),
 ]

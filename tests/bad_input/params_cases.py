@@ -39,15 +39,15 @@ CASES = [
     text("two documents", "seed: 1\n---\nseed: 2\n", "line 2"),
     text("not text", b"\xff\xfe\x00\x01", "UTF-8"),
     text("nested too deeply", "[" * 5000, "nested more than 100"),
-    text("a key that is there twice", "seed: 1\nseed: 2\n", "line 2", "duplicate key 'seed'"),
+    text("a duplicate key", "seed: 1\nseed: 2\n", "line 2", "duplicate key 'seed'"),
     text("a merge of mappings", "a: &a {b: 1}\nc: {<<: *a}\n", "line 2", "'<<' is not supported"),
-    text("a key that is no text", "1: 2\n", "line 1", "a key must be text"),
+    text("a key that is not text", "1: 2\n", "line 1", "a key must be text"),
     text("a key that is a list", "? [a, b]\n: 1\n", "line 1", "a key must be text"),
     text(
         "a tag that runs a command", "seed: !!python/object/apply:os.system [touch ran]\n", "line 1"
     ),
     text("a tag that makes an object", "seed: !!python/object:os.PathLike {}\n", "line 1"),
-    text("a tag its value does not fit", "seed: !!int many\n", "line 1", "'many'"),
+    text("a tag that does not fit its value", "seed: !!int many\n", "line 1", "'many'"),
     text("a date that does not exist", "seed: 2020-99-99\n", "line 1", "2020-99-99"),
     text("Python for Snakemake to run", "__use_yte__: true\n?open('ran', 'w'): 1\n", "__use_yte__"),
     change("an unknown section", {"sed": 1}, "'sed' is not a known key", "allowed: "),
@@ -56,7 +56,7 @@ CASES = [
     change("a wrong type", {"seed": "one"}, "seed", "not an integer"),
     change("a seed with a decimal point", {"seed": 0.0}, "seed", "not an integer"),
     change("a count with a decimal point", {"renders": {"views": 100.0}}, "renders.views", "100.0"),
-    change("a yes for a number", {"seed": True}, "seed", "not an integer"),
+    change("a boolean for a number", {"seed": True}, "seed", "not an integer"),
     change("below the range", {"objects": {"scale": 0}}, "objects.scale", "0"),
     change("above the range", {"folds": {"count": 1000}}, "folds.count", "maximum of 100"),
     change("NaN", {"objects": {"scale": float("nan")}}, "objects.scale", "not a finite number"),
@@ -64,9 +64,11 @@ CASES = [
     change("an unknown object", {"objects": {"names": ["mug", "jug"]}}, "objects.names.1", "'jug'"),
     change("an object named twice", {"objects": {"names": ["mug", "mug"]}}, "objects.names"),
     change("no object at all", {"objects": {"names": []}}, "objects.names", "name an object"),
-    change("a name for the shell", {"tasks": {"a; ls": {"colour_shift": 1}}}, "tasks", "a; ls"),
-    change("a task called missing", {"tasks": {"nan": {"colour_shift": 1}}}, "tasks", "'nan'"),
-    change("an object called missing", {"objects": {"own": {"null": BOX}}}, "own", "'null'"),
+    change(
+        "a name with shell characters", {"tasks": {"a; ls": {"colour_shift": 1}}}, "tasks", "a; ls"
+    ),
+    change("a task named nan", {"tasks": {"nan": {"colour_shift": 1}}}, "tasks", "'nan'"),
+    change("an object named null", {"objects": {"own": {"null": BOX}}}, "own", "'null'"),
     change("an unknown unit", {"objects": {"own": {"box": BOX | {"unit": "ell"}}}}, "own.box.unit"),
     change(
         "mass and density",
@@ -74,10 +76,12 @@ CASES = [
         "own.box",
         "exactly one of density_kg_m3 and mass_kg",
     ),
-    change("a mesh that is not there", {"objects": {"own": {"box": BOX}}}, "box.stl"),
-    change("an own name of the catalogue", {"objects": {"own": {"mug": BOX}}}, "objects.own.mug"),
-    environment("a table that is not there", "GRASPTYPES_PUBLISHED_CSV", "no.csv", "'no.csv'"),
-    environment("scans that are not there", "GRASPTYPES_REFERENCE_MESHES", "no", "'no'"),
+    change("a missing mesh", {"objects": {"own": {"box": BOX}}}, "box.stl"),
+    change(
+        "an own object with a catalogue name", {"objects": {"own": {"mug": BOX}}}, "objects.own.mug"
+    ),
+    environment("a missing table", "GRASPTYPES_PUBLISHED_CSV", "no.csv", "'no.csv'"),
+    environment("missing scans", "GRASPTYPES_REFERENCE_MESHES", "no", "'no'"),
     environment(
         "a URL without checksum",
         "GRASPTYPES_PUBLISHED_CSV",

@@ -34,7 +34,7 @@ def picture(what: str, content: Content, *names: str, name: str = "cup.png") -> 
         "params.yaml": (ROOT / "params.yaml").read_bytes(),
     }
     call = command("predict", "--image", name, "--task", "use")
-    return Case("picture", what, files, call, (name, *names))
+    return Case("image", what, files, call, (name, *names))
 
 
 STILL = Image.fromarray(NOISE)

@@ -27,12 +27,13 @@ MODULES = (
 )
 CASES: list[Case] = [case for module in MODULES for case in module.CASES]
 TABLE = ROOT / "docs/bad_input.md"
-HEAD = """# What ends with one line
+HEAD = """# Bad input
 
-Every mistake below ends with the line beside it and an exit status other than zero, and leaves no
-file behind. `make bad-input` tries them all and writes this table; tests/bad_input holds them.
+Each mistake below is reported in the given line, ends with a nonzero exit status, and leaves no
+file behind. `make bad-input` tries them all and writes this table; the cases are in
+tests/bad_input.
 
-| handed in | mistake | ends with |
+| input | mistake | message |
 |---|---|---|
 """
 

@@ -61,29 +61,34 @@ def fetched(what: str, address: str, *names: str) -> Case:
 SHA256 = hashlib.sha256(b"").hexdigest()
 CASES = [
     published("empty", "", "not a CSV table"),
-    published("the names of the columns only", csv({}).splitlines()[0], "holds no grasps"),
+    published("a header only", csv({}).splitlines()[0], "has a header but no grasps"),
     published("UTF-16", csv({}).encode("utf-16"), "not UTF-8"),
     published("semicolons between the cells", csv({}, separator=";"), "Index", "missing"),
     published("a missing column", csv({}, drop="Rank"), "Rank", "missing"),
     published(
         "a missing column after a byte order mark", csv({}, drop="Rank").encode("utf-8-sig"), "Rank"
     ),
-    published("a column that is there twice", csv({}).replace("Image", "Rank"), "Rank", "twice"),
-    published("a row that is there twice", csv({}, {"Session": "1"}), "line 3", "twice"),
-    published("broken off within a row", csv({}, {})[:-10], "not a CSV table"),
+    published("a duplicate column", csv({}).replace("Image", "Rank"), "Rank", "twice"),
+    published("a duplicate row", csv({}, {"Session": "1"}), "line 3", "twice"),
+    published("truncated within a row", csv({}, {})[:-10], "not a CSV table"),
     published("a row that is too short", csv({}) + "1,mug\n", "line 3, Intent"),
     cell("an unknown grasp type", "GraspType", "Hug", "'Hug'", "Large Wrap"),
     cell("an unknown task", "Intent", "throw", "handoff, use"),
     cell("16 numbers", "HandConfiguration", POSE.rsplit(",", 1)[0], "16 numbers instead of 17"),
     cell("NaN in a pose", "HandConfiguration", POSE.replace("0.3", "nan"), "finite"),
-    cell("a pose that is no rotation", "HandConfiguration", "0,2" + POSE[3:], "no valid rotation"),
+    cell(
+        "a pose without a valid rotation",
+        "HandConfiguration",
+        "0,2" + POSE[3:],
+        "no valid rotation",
+    ),
     cell("millimetres", "HandConfiguration", POSE.replace("0.3", "300"), "metres"),
     cell("degrees", "HandConfiguration", POSE.replace("1.2", "120"), "radians"),
     cell("NaN", "Error", "nan", "finite"),
-    cell("session 0", "Session", "0", "from 1 up"),
+    cell("session 0", "Session", "0", "positive integer"),
     cell("half a session", "Session", "1.5", "not an integer"),
     fetched(
-        "a host that is away", f"http://127.0.0.1:9/t.csv#sha256={SHA256}", "127.0.0.1:9", "path"
+        "an unreachable host", f"http://127.0.0.1:9/t.csv#sha256={SHA256}", "127.0.0.1:9", "path"
     ),
     affinities("empty", b"", "line 1", "the columns must be"),
     affinities("not UTF-8", b"\xff\xfe\x00", "not UTF-8"),

@@ -53,9 +53,11 @@ def with_nan() -> dict[str, torch.Tensor]:
 
 
 CASES = [
-    weights("not there", None, WEIGHTS_VARIABLE, "not a file"),
+    weights("missing", None, WEIGHTS_VARIABLE, "not a file"),
     weights("a folder", Path.mkdir, WEIGHTS_VARIABLE, "not a file"),
-    weights("not those of the results here", b"net", WEIGHTS_VARIABLE, "0a1b", chosen="0a1b"),
+    weights(
+        "other weights than those of the results", b"net", WEIGHTS_VARIABLE, "0a1b", chosen="0a1b"
+    ),
     weights("empty", b"", "not a file of tensors"),
     weights("truncated", truncated, "not a file of tensors"),
     weights("text", "weights\n", "not a file of tensors"),

@@ -1,4 +1,4 @@
-"""The command line: ``grasptypes predict`` and whatever else ``grasptypes --help`` lists."""
+"""The command line: ``grasptypes predict`` and the other commands of ``grasptypes --help``."""
 
 from __future__ import annotations
 
@@ -17,16 +17,16 @@ COMMANDS = {"predict": predict, "plan": plan}
 
 
 class _Parser(argparse.ArgumentParser):
-    """Says what is wrong with the arguments on one line."""
+    """Reports errors in the arguments in one line."""
 
     def error(self, message: str) -> NoReturn:
-        """End with status 2."""
+        """Exit with status 2."""
         self.exit(2, f"error: {message} (see {self.prog} --help)\n")
 
 
 def parser() -> argparse.ArgumentParser:
     """All commands and their options."""
-    whole = _Parser("grasptypes", description="Which grasp should a robot's hand use?")
+    whole = _Parser("grasptypes", description="Which grasp should a robot hand use?")
     commands = whole.add_subparsers(dest="command", required=True, metavar="COMMAND")
     for name, module in COMMANDS.items():
         summary = str(module.__doc__).splitlines()[0]
@@ -37,8 +37,8 @@ def parser() -> argparse.ArgumentParser:
 def main(arguments: Sequence[str] | None = None) -> None:
     """Run one command.
 
-    Bad input, a full disk and too little memory end with one line and exit status 1, Ctrl-C with
-    130, as shells have it.
+    Bad input, a full disk and lack of memory are reported in one line with exit status 1; Ctrl-C
+    exits with 130, as in shells.
     """
     args = parser().parse_args(arguments)
     logging.basicConfig(level=logging.ERROR)
@@ -50,7 +50,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
     except OSError as error:
         where = f"{error.filename}: " if error.filename else ""
         sys.exit(f"error: {where}{error.strerror or error}")
-    except (MemoryError, BrokenProcessPool):  # the system kills a process that asks for too much
+    except (MemoryError, BrokenProcessPool):  # the system kills a process that needs too much
         sys.exit("error: not enough memory: close other programs, or plan with --jobs 1")
     except KeyboardInterrupt:
         sys.exit(130)

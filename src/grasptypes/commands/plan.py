@@ -1,6 +1,6 @@
 """Plan grasps of a mesh for a task: searched, tested in physics, labelled and ranked.
 
-Heavy libraries are imported once the arguments are known to be in order.
+Heavy libraries are imported after the arguments have been checked.
 """
 
 from __future__ import annotations
@@ -14,41 +14,43 @@ from grasptypes.errors import InputError
 from grasptypes.files import json_text
 from grasptypes.objects.units import UNITS_M
 
-# `GRASP_TYPES` without the last, as the help lists them at no cost; a test holds them in step.
+# `GRASP_TYPES` without the last, for a fast help text; a test keeps both consistent.
 TYPES = "Large Wrap, Medium Wrap, Small Wrap, Power Sphere, Precision Sphere, Precision"
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The options of `plan`."""
     parser.add_argument("--object", type=Path, required=True, help="a mesh (STL, OBJ, PLY, GLB)")
-    parser.add_argument("--task", required=True, help="what it is grasped for, e.g. use")
+    parser.add_argument("--task", required=True, help="task, e.g. use")
     parser.add_argument(
-        "--unit", choices=UNITS_M, default="m", help="of mesh and contact map (default: m)"
+        "--unit", choices=UNITS_M, default="m", help="unit of mesh and contact map (default: m)"
     )
-    parser.add_argument("--mass-kg", type=_number, help="default: that of a solid of water")
+    parser.add_argument(
+        "--mass-kg", type=_number, help="mass of the object (default: that of a solid of water)"
+    )
     parser.add_argument("--contact-map", type=Path, help="PLY whose red channel says where to hold")
     parser.add_argument(
         "--type",
         action="append",
         default=[],
-        help=f"wanted grasp type, may be given again (default: predicted ones); one of: {TYPES}",
+        help=f"requested grasp type; may be repeated (default: predicted types); one of: {TYPES}",
     )
     parser.add_argument("--output", type=Path, help="new folder (default: <mesh>_<task>_grasps)")
     parser.add_argument(
         "--sessions",
         type=_count,
-        help="ways of holding to be searched (default: 20, from plan.sessions of params.yaml)",
+        help="number of ways of holding to search (default: 20, plan.sessions in params.yaml)",
     )
-    parser.add_argument("--jobs", type=_count, default=2, help="processes (default: 2)")
-    parser.add_argument("--json", action="store_true", help="print plan.json, for programs")
+    parser.add_argument("--jobs", type=_count, default=2, help="number of processes (default: 2)")
+    parser.add_argument("--json", action="store_true", help="print plan.json instead of a table")
     add_folder(parser)
 
 
 def run(args: argparse.Namespace) -> str:
-    """The text to show; writes the output folder whole or not at all.
+    """Write the output folder, completely or not at all; returns the text to print.
 
     Raises:
-        InputError: anything wrong with the arguments; then nothing is written.
+        InputError: an argument is wrong; nothing is written.
     """
     output = args.output or Path(f"{args.object.stem}_{args.task}_grasps")
     _check_output(output)
@@ -59,7 +61,7 @@ def run(args: argparse.Namespace) -> str:
     from grasptypes.planning.planner import Planner
 
     planner = Planner(args.folder, jobs=args.jobs, tell=_tell)
-    # Whatever is wrong is told before anything is computed.
+    # Check everything before anything is computed.
     planner.check_request(args.task, args.type, args.mass_kg)
     scan = MeasuredMap(args.contact_map, UNITS_M[args.unit]) if args.contact_map else None
     if scan:

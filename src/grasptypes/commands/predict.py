@@ -1,6 +1,6 @@
 """Predict the grasp types of an image, a folder of images, or a mesh.
 
-Heavy libraries are imported once the arguments are known to be in order.
+Heavy libraries are imported after the arguments have been checked.
 """
 
 from __future__ import annotations
@@ -25,12 +25,14 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The options of `predict`."""
     shown = parser.add_mutually_exclusive_group(required=True)
     shown.add_argument("--image", type=Path, help="an image, or a folder of images")
-    shown.add_argument("--object", type=Path, help="a mesh (STL, OBJ, PLY, GLB), seen from around")
-    parser.add_argument("--unit", choices=UNITS_M, help="of the mesh (default: m)")
-    parser.add_argument("--task", help="what the object is grasped for, e.g. use")
+    shown.add_argument(
+        "--object", type=Path, help="a mesh (STL, OBJ, PLY, GLB), rendered from several views"
+    )
+    parser.add_argument("--unit", choices=UNITS_M, help="unit of the mesh (default: m)")
+    parser.add_argument("--task", help="task, e.g. use")
     parser.add_argument("--model", help="a, b, c, d (row of Table I) or its name")
-    parser.add_argument("--labels", help="labels it was trained on: simulated or published")
-    parser.add_argument("--json", action="store_true", help="for programs")
+    parser.add_argument("--labels", help="labels the model was trained on: simulated or published")
+    parser.add_argument("--json", action="store_true", help="print JSON")
     parser.add_argument(
         "--picture", type=Path, help="PNG file for a figure of the images and their answers"
     )
@@ -38,10 +40,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(args: argparse.Namespace) -> str:
-    """The text to show.
+    """Returns the text to print.
 
     Raises:
-        InputError: anything wrong with the arguments; then nothing is written.
+        InputError: an argument is wrong; nothing is written.
     """
     params = checkout_params(args.folder)
     limits = params.predict.photos

@@ -12,12 +12,12 @@ from grasptypes.files import staging_name
 
 
 def printable(name: str) -> str:
-    """A file's name as it can be shown and written: "?" for what is no visible character."""
+    """A file name that can be printed: "?" replaces characters that are not visible."""
     return "".join(letter if letter.isprintable() else "?" for letter in name)
 
 
 def add_folder(parser: argparse.ArgumentParser) -> None:
-    """The option that names the checkout."""
+    """Add the option that names the checkout."""
     parser.add_argument(
         "--folder",
         type=Path,

@@ -93,7 +93,7 @@ def map_measured_contacts(task: MapTask, probability: Array, path: str | Path) -
             raise InputError(
                 path,
                 "",
-                f"no hand can hold {task.name[0]} where it is to be touched: in {count} "
+                f"no hand can hold {task.name[0]} where the map is warm: in {count} "
                 "placements thumb and fingers found no opposing sides",
             )
         people.append(person)

@@ -1,4 +1,4 @@
-"""Where a plan's hands touch: where a scan is warm, or anywhere, with the grips of given types."""
+"""Where the hands of a plan touch: where a scan is warm, or anywhere, with given grips."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ class MeasuredMap(NamedTuple):
 
     path: Path
     unit_m: float
-    """Length of its unit."""
+    """Length of its unit, metres."""
 
     def read(self) -> ContactScan:
         """Its points; raises InputError if the file cannot be used."""
@@ -30,30 +30,30 @@ class MeasuredMap(NamedTuple):
 
 
 class PlanContacts(NamedTuple):
-    """Where the hands of a plan touch."""
+    """The contacts of a plan."""
 
     contact_map: ContactMap
     numbers: tuple[int, ...]
-    """Of its sessions, from 1; those that found no place to hold are left out."""
+    """Session numbers, from 1; sessions that found no place to hold are left out."""
 
 
 def grips_of(types: Sequence[str]) -> tuple[str, ...]:
-    """The grips people use for some of `grasp_type.GRASP_TYPES`, each once."""
+    """The grips that people use for some of `grasp_type.GRASP_TYPES`, without duplicates."""
     return tuple(dict.fromkeys(GRIP_OF_TYPE[kind] for kind in types))
 
 
 def plan_contacts(
     task: MapTask, measured: MeasuredMap | None, grips: Sequence[str], source: str | Path
 ) -> PlanContacts:
-    """Sessions of a prepared object, each with one of the grips in turn.
+    """Sessions of a prepared object, with the grips in turn.
 
-    A session whose hand finds no place to hold is left out; the others stay what they are.
+    A session whose hand finds no place to hold is left out; the other sessions are not affected.
 
     Args:
-        measured: without one every place is as good as any other, as in the rows of the affinity
-            table whose part is `*`.
-        grips: of the affinity table.
-        source: the user's mesh, or the object's name: to be named if no hand can hold it.
+        measured: without it all places are equally likely, as in rows of the affinity table with
+            part `*`.
+        grips: grips of the affinity table.
+        source: the user's mesh or the object's name, for errors.
 
     Raises:
         InputError: the measured map cannot be used, or no hand can hold the object.
@@ -82,7 +82,7 @@ def plan_contacts(
 
 
 def _anywhere(task: MapTask) -> MapTask:
-    """With nothing to agree with, the first placement that opposes is as good as any."""
+    """A task without a map to match: the first opposing placement is as good as any."""
     settings = task.settings
     free = settings.measured.changed(placements=settings.tries, sharpness=0.0)
     return replace(task, settings=settings.changed(measured=free))
@@ -91,9 +91,9 @@ def _anywhere(task: MapTask) -> MapTask:
 def _session(
     task: MapTask, probability: NDArray[np.float64], grips: Sequence[str], number: int
 ) -> Session | None:
-    """A session with the grip whose turn it is, or else with any of them, or None in vain."""
+    """A session with the grip whose turn it is, else with any of them, else None."""
     turn = (grips[number % len(grips)],)
-    # With one grip the draws would be the same.
+    # With a single grip the draws would be the same.
     choices = dict.fromkeys([turn, tuple(grips)])
     found = (draw_measured_session(task, probability, number, choice) for choice in choices)
     return next((session for session in found if session), None)

@@ -1,4 +1,4 @@
-"""What a plan writes: its tables, the formats of the field, and a picture of the best grasps."""
+"""Output of a plan: tables, exchange formats, and an image of the best grasps."""
 
 from __future__ import annotations
 
@@ -82,7 +82,7 @@ def _write_files(plan: Plan, folder: Path) -> None:
 
 
 def posed(grasps: pd.DataFrame) -> PosedHands:
-    """Grasps of one object as all formats of the field take them."""
+    """Grasps of one object for the exchange formats."""
     numbers = np.stack(grasps.hand_configuration.tolist())
     angles = np.stack(grasps.joint_angles_rad.tolist()).astype(np.float64)
     poses = RigidTransform(configuration.unpack(numbers).T_object_hand, normalize=False)
@@ -102,7 +102,7 @@ def write_formats(hands: PosedHands, folder: Path) -> None:
 
 
 def draw_best(grasps: pd.DataFrame, visual: Path, params: Params) -> bytes:
-    """A PNG of the grasps, each under its rank, type and energy."""
+    """PNG of the grasps, each with its rank, type and energy."""
     settings = params.gallery
     studio = plain(params.renders, settings.size_px)
     parts, tiles = load_parts(visual), []

@@ -1,4 +1,4 @@
-"""A plan in few words: as plain values for programs, as lines for people."""
+"""Summary of a plan: as plain values, and as text."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from grasptypes.planning.planner import Plan
 
 
 def summarise(plan: Plan) -> dict[str, Any]:
-    """Everything there is to say."""
+    """The complete summary as plain values for JSON."""
     grasps, types, properties = plan.ranking, plan.request.types, plan.geometry.properties
     wanted = grasps.grasp_type.isin(types)
     return {
@@ -46,7 +46,7 @@ def summarise(plan: Plan) -> dict[str, Any]:
 
 
 def report(summary: Mapping[str, Any]) -> str:
-    """The same for people: a row a grasp."""
+    """The summary as text, one row per grasp."""
     by = summary["chosen_by"]
     chosen = f"chosen by {by['model']}, {by['labels']} labels" if by else "as asked"
     types, held = ", ".join(summary["wanted_types"]), summary["valid_of_wanted_type"]

@@ -34,11 +34,11 @@ URDF = "assets/barrett_hand/barrett_hand.urdf"
 
 @dataclass(frozen=True)
 class PlanningContext:
-    """What every session of a plan shares.
+    """Shared by all sessions of a plan.
 
     Attributes:
-        word: stands for the object in the keys of all draws.
-        urdf: the hand's.
+        word: name of the object in the keys of all random draws.
+        urdf: URDF of the hand.
     """
 
     geometry: ObjectGeometry
@@ -49,16 +49,16 @@ class PlanningContext:
 
 
 class GraspTypeRequest(NamedTuple):
-    """The wanted grasp types, spelled as in `GRASP_TYPES`, and who chose them."""
+    """The requested grasp types, spelled as in `GRASP_TYPES`, and who chose them."""
 
     types: tuple[str, ...]
     chosen_by: dict[str, Any] | None = None
-    """The predictor and its answer; None if they were given."""
+    """The predictor and its answer; None if the user chose them."""
 
 
 @dataclass(frozen=True)
 class Plan:
-    """What came out for one object and task.
+    """Planned grasps for one object and task.
 
     Attributes:
         params: it was made with.
@@ -98,12 +98,12 @@ class Planner:
     """Plans grasps of any object.
 
     Args:
-        folder: a checkout, whose parameters, hand and models are used.
-        jobs: processes at work; the result is the same for any number.
-        tell: takes a line on what is going on.
+        folder: checkout with the parameters, hand and models.
+        jobs: number of processes; the result does not depend on it.
+        tell: called with progress messages.
 
     Raises:
-        InputError: the folder has no parameters, or wrong ones.
+        InputError: the folder has no valid parameters.
     """
 
     def __init__(
@@ -128,18 +128,18 @@ class Planner:
         contact_map: MeasuredMap | None = None,
         sessions: int | None = None,
     ) -> Plan:
-        """Grasps of an object for a task, ranked.
+        """Plan ranked grasps of an object for a task.
 
         Args:
-            object: as `load_object` returns it.
-            types: wanted grasp types; grasps of these rank before all others. Without any, the
-                predictor of the folder chooses.
-            contact_map: where to touch the object; without one, anywhere.
-            sessions: ways of holding to be searched, one grasp each.
+            object: object from `load_object`.
+            types: requested grasp types, which rank before all others; default: chosen by the
+                predictor.
+            contact_map: where to touch the object; default: anywhere.
+            sessions: number of ways of holding to search, one grasp each.
 
         Raises:
-            InputError: an unknown task or type, a mass that the hand cannot lift, a contact map
-                that cannot be used, or an object that no hand can hold.
+            InputError: an unknown task or type, a mass that the hand cannot lift, an unusable
+                contact map, or an object that no hand can hold.
         """
         source = object.source or object.name
         wanted = self.check_request(task, types, object.properties.mass_kg, source)
@@ -190,7 +190,7 @@ class Planner:
         return tuple(known_type(name) for name in types)
 
     def _predicted(self, geometry: ObjectGeometry, task: str) -> GraspTypeRequest:
-        """The types that the predictor chooses for the object; the likeliest if none is."""
+        """The types that the predictor chooses for the object; the likeliest if none."""
         assert self._predictor is not None  # `check_request` has loaded it
         name = f"{geometry.name}, mean of {self.params.predict.views} views"
         answer = self._predictor.predict(geometry, task, name=name)
@@ -199,10 +199,10 @@ class Planner:
 
 
 def known_type(text: str) -> str:
-    """A grasp type as tables spell it, from any spelling with spaces or underscores.
+    """A grasp type as spelled in tables, from any spelling with spaces or underscores.
 
     Raises:
-        InputError: there is no such type.
+        InputError: the type does not exist.
     """
     kind, allowed = text.replace("_", " ").title(), GRASP_TYPES[:-1]
     if kind not in allowed:
@@ -220,9 +220,9 @@ def plan_sessions(
     """Attempts and ranked grasps of the contacts' sessions, see `Plan`.
 
     Args:
-        types: wanted grasp types; grasps of these rank before all others.
-        jobs: processes at work.
-        tell: takes a line on every session.
+        types: requested grasp types, which rank before all others.
+        jobs: number of processes.
+        tell: called with a line for every session.
     """
     work, last = partial(_search, context, contacts), contacts.numbers[-1]
     found = []
@@ -238,10 +238,10 @@ def plan_sessions(
 
 
 def choose(labelled: pd.DataFrame, types: Sequence[str]) -> pd.DataFrame:
-    """Labelled attempts with the column `chosen` set anew, once a session.
+    """Labelled attempts with the column `chosen` set again, once per session.
 
-    A valid grasp of a wanted type goes before the one that the synthesis chose, which does not
-    know what is wanted.
+    A valid grasp of a requested type takes precedence over the one chosen by the synthesis, which
+    does not know the request.
     """
     wanted = labelled.valid & labelled.grasp_type.isin(types)
     keys = {"other": ~wanted, "passed": ~labelled.chosen}
@@ -250,9 +250,9 @@ def choose(labelled: pd.DataFrame, types: Sequence[str]) -> pd.DataFrame:
 
 
 def ranked(labelled: pd.DataFrame, types: Sequence[str]) -> pd.DataFrame:
-    """Labelled grasps, best first: valid ones of a wanted type, other valid ones, then the rest.
+    """Labelled grasps, best first: valid ones of a requested type, other valid ones, then the rest.
 
-    Within these the energy decides. `pose_index` keeps the place among the session's tries.
+    Each group is sorted by energy. `pose_index` keeps the position among the session's tries.
     """
     keys = {"failed": ~labelled.valid, "other": ~labelled.grasp_type.isin(types)}
     order = labelled.assign(**keys).sort_values(["failed", "other", "energy", "session"]).index
@@ -266,17 +266,17 @@ def ranked(labelled: pd.DataFrame, types: Sequence[str]) -> pd.DataFrame:
 
 
 def _each(work: Callable[[int], pd.DataFrame], count: int, jobs: int) -> Iterator[pd.DataFrame]:
-    """Results for 0 to count - 1, in order and as soon as they are there.
+    """Results for 0 to count - 1, in order, as soon as they are available.
 
-    At Ctrl-C, which the terminal sends to every process, the workers are ended without a word.
+    On Ctrl-C, which the terminal sends to every process, the workers end silently.
     """
     if jobs == 1:
         yield from map(work, range(count))
         return
-    # A fork would copy an open OpenGL context and torch's threads.
+    # Not a fork, which would copy an open OpenGL context and torch's threads.
     with ProcessPoolExecutor(jobs, mp_context=get_context("spawn")) as pool:
         try:
-            # Workers start with the mask of who starts them, here all of them.
+            # Workers inherit the mask of the thread that starts them, here all.
             signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGINT])
             try:
                 results = pool.map(work, range(count))
@@ -290,7 +290,7 @@ def _each(work: Callable[[int], pd.DataFrame], count: int, jobs: int) -> Iterato
 
 
 def _search(context: PlanningContext, contacts: PlanContacts, index: int) -> pd.DataFrame:
-    """Attempts of one session, whatever sessions there are beside it, with its grip and tries."""
+    """Attempts of one session, independent of the others, with its grip and tries."""
     contact_map, number, params = contacts.contact_map, contacts.numbers[index], context.params
     session_seed = seed("plan", context.word, context.task, number, params.seed)
     task = SynthesisTask(
@@ -302,7 +302,7 @@ def _search(context: PlanningContext, contacts: PlanContacts, index: int) -> pd.
 
 
 def _one(contact_map: ContactMap, index: int) -> ContactMap:
-    """The contact map with one of its sessions only."""
+    """The contact map with only one of its sessions."""
     of_session = ("sessions", "style", "grip", "part", "approach", "closing", "centre_m", "height")
     names = (*of_session, "hand_length_m")
     row = slice(index, index + 1)

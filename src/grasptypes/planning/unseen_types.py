@@ -1,4 +1,4 @@
-"""The grasp types that predictors choose for objects they have not seen."""
+"""Grasp types that predictors choose for unseen objects."""
 
 from __future__ import annotations
 
@@ -16,13 +16,12 @@ def unseen_types(
 ) -> dict[tuple[str, str], list[str]]:
     """Chosen types of every object and task, from predictors trained on all other objects.
 
-    Variants of an object are left out with it, and have no answer of their own.
-
-    The views' answers are averaged, as for a user's mesh.
+    Variants of an object are left out with it, and have no prediction of their own. Predictions are
+    averaged over the views, as for a user's mesh.
 
     Args:
-        seeds: predictors an object, whose answers are averaged too.
-        seed: part of the key of every draw.
+        seeds: number of predictors per object, whose predictions are averaged too.
+        seed: part of the key of every random draw.
     """
     examples = problem.examples
     members = members_by_object(examples.index["object"], seeds)

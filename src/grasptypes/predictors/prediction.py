@@ -27,7 +27,7 @@ from grasptypes.renders.photos import read_photo
 from grasptypes.settings.objects import OwnObject
 from grasptypes.settings.params import Params, checkout_params
 
-# What a model may have been trained on; its folder below models/.
+# Label sources of trained models; their folders below models/.
 LABELS = ("simulated", "published")
 MODEL_OF_ROW = {variant.row: name for name, variant in VARIANTS.items()}
 
@@ -70,10 +70,10 @@ def predictor_paths(root: str | Path, labels: str, model: str) -> tuple[Path, Pa
     """Tensors and card of a trained model.
 
     Args:
-        model: its name, or the letter of its row in Table I.
+        model: name, or letter of its row in Table I.
 
     Raises:
-        InputError: there is no such model, or it is not trained.
+        InputError: the model does not exist, or is not trained.
     """
     name = MODEL_OF_ROW.get(model, model)
     if name not in VARIANTS:
@@ -91,10 +91,10 @@ def predictor_paths(root: str | Path, labels: str, model: str) -> tuple[Path, Pa
 
 
 class Predictor:
-    """A trained model of a checkout, which answers which grasp types suit an object and a task.
+    """A trained model of a checkout, which predicts the grasp types for an object and a task.
 
     Args:
-        params: the checkout's: how meshes are rendered, and which photos are accepted.
+        params: parameters of the checkout: how meshes are rendered, which photos are accepted.
     """
 
     def __init__(self, model: PredictorNetwork, params: Params) -> None:
@@ -110,27 +110,27 @@ class Predictor:
         model: str | None = None,
         params: Params | None = None,
     ) -> Predictor:
-        """The model with the backbone's weights of this machine; no host is asked.
+        """Load the model, with the backbone's weights on this machine; without network access.
 
         Args:
-            folder: a checkout, whose parameters and models are used.
-            labels: source of the labels it was trained on; by default that of the parameters.
-            model: its name or the letter of its row in Table I; by default that of the parameters.
+            folder: checkout with the parameters and models.
+            labels: label source it was trained on; default: from the parameters.
+            model: name, or letter of its row in Table I; default: from the parameters.
             params: other parameters than the checkout's.
 
         Raises:
-            InputError: it is not trained, or the weights here are not those it was trained with.
+            InputError: the model is not trained, or was trained with other weights.
         """
         import_module("torchvision")  # before OpenGL: see `renders.renderer`
         params = params or checkout_params(folder)
         chosen = labels or params.predict.labels, model or params.predict.model
         tensors, card = predictor_paths(folder, *chosen)
-        read_card(card)  # a damaged card is told before missing weights
+        read_card(card)  # report a damaged card before missing weights
         return cls(load_predictor(tensors, card, find_weights(timeout_s=0)), params)
 
     @property
     def card(self) -> ModelCard:
-        """What the model is, and what it knows."""
+        """Description of the model."""
         return self.model.card
 
     def predict(
@@ -140,22 +140,22 @@ class Predictor:
         *,
         name: str = "",
     ) -> Answer:
-        """The grasp types for what is shown.
+        """Predict grasp types.
 
         Args:
-            shown: an object, which is rendered from around; the file of a photo; or images
-                (H, W, 3) or (N, H, W, 3) uint8 of one object, whose answers are averaged.
-            task: what the object is grasped for; models that do not see the task need none.
-            name: of the answer.
+            shown: an object, which is rendered from several sides; a photo file; or images
+                (H, W, 3) or (N, H, W, 3) uint8 of one object, whose predictions are averaged.
+            task: the task; not needed for models that do not see it.
+            name: name of the answer.
 
         Raises:
-            InputError: an unknown task, or a photo that cannot be used.
+            InputError: an unknown task, or an unusable photo.
         """
         logits = self.model.logits(self.images(shown), self.check_task(task))
         return Answer.of_logits(name, self.card.types, logits)
 
     def images(self, shown: ObjectGeometry | np.ndarray | str | Path) -> np.ndarray:
-        """What the model sees of it: (N, H, W, 3) uint8."""
+        """Images that the model sees: (N, H, W, 3) uint8."""
         if isinstance(shown, ObjectGeometry):
             return views(shown.visual, self.params.renders, self.params.predict.views)
         if isinstance(shown, str | Path):
@@ -163,14 +163,14 @@ class Predictor:
         return shown[None] if shown.ndim == 3 else shown
 
     def mesh_images(self, own: OwnObject) -> np.ndarray:
-        """As `images`, of a user's mesh that need not be prepared for planning."""
+        """Like `images`, for a user's mesh that is not prepared for planning."""
         return mesh_views(own, self.params)
 
     def check_task(self, task: str | None) -> str:
-        """The task to ask for; models that do not see the task need none.
+        """The checked task; models that do not see the task need none.
 
         Raises:
-            InputError: none given where one is needed, or an unknown one.
+            InputError: the task is missing or unknown.
         """
         known = self.card.tasks
         if task is None and not self.card.sees_task:
@@ -234,5 +234,5 @@ def _rows(answers: Sequence[Answer]) -> list[str]:
 
 
 def spelled(kind: str) -> str:
-    """As the published table spells a type."""
+    """A type as spelled in the published table."""
     return kind.replace("_", " ").title()

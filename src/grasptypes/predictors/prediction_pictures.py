@@ -1,4 +1,4 @@
-"""Pictures of answers: what the predictor saw beside bars of what it says."""
+"""Figures of predictions: the images that the predictor saw, next to bars of its answers."""
 
 from __future__ import annotations
 
@@ -13,14 +13,14 @@ from grasptypes.predictors.predictor_files import ModelCard
 
 CHOSEN, OTHER = "#2a6f97", "#b8c4cc"
 ROW_IN = 2.6
-NAME_LENGTH = 40  # letters that fit above a picture
-LABEL_ROOM = 1.18  # right end of the bars' axis, so that a bar of 1 has room for its number
+NAME_LENGTH = 40  # letters that fit above an image
+LABEL_ROOM = 1.18  # right end of the bars' axis, with room for the number of a bar of 1
 
 
 def draw_answers(
     pictures: Sequence[np.ndarray], answers: Sequence[Answer], card: ModelCard, task: str
 ) -> Figure:
-    """One row an answer: its picture (H, W, 3) uint8 at the left, its bars at the right."""
+    """One row per answer: its image (H, W, 3) uint8 on the left, its bars on the right."""
     asked = f"for {task}" if card.sees_task else "whatever the task"
     title = f"{card.model}, {card.labels} labels, {asked}; {card.backbone}, {card.weights}"
     height_in = ROW_IN * len(answers) + 0.5
@@ -37,7 +37,7 @@ def draw_answers(
 
 
 def montage(views: np.ndarray) -> np.ndarray:
-    """Views (N, H, W, 3) side by side in rows of about equal number."""
+    """Views (N, H, W, 3) in rows of nearly equal length."""
     columns = int(np.ceil(np.sqrt(len(views))))
     empty = np.full((-len(views) % columns, *views.shape[1:]), 255, dtype=np.uint8)
     tiles = np.concatenate([views, empty])
@@ -46,7 +46,7 @@ def montage(views: np.ndarray) -> np.ndarray:
 
 
 def _shortened(name: str) -> str:
-    """A name without its middle, if it is long."""
+    """A name, with its middle removed if it is long."""
     half = NAME_LENGTH // 2
     return name if len(name) <= NAME_LENGTH else f"{name[:half]}…{name[1 - half :]}"
 

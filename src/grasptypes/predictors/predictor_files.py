@@ -1,4 +1,4 @@
-"""A trained predictor on disk: tensors as safetensors, everything else as JSON beside them."""
+"""A trained predictor on disk: tensors as safetensors, everything else as JSON."""
 
 from __future__ import annotations
 
@@ -25,21 +25,21 @@ FROZEN = "none"
 
 @dataclass(frozen=True)
 class ModelCard:
-    """All that is needed, beside the tensors, to use a predictor again.
+    """Everything needed to use a predictor, apart from its tensors.
 
     Attributes:
         model: name of its variant.
         labels: label source it was trained on.
         types: names of its outputs.
         tasks: in the order of the task vector.
-        colour_shifts: what each task adds to the RGB values of pictures that show it.
+        colour_shifts: shift of the RGB values that encodes each task.
         architecture: sizes of its head.
         backbone: name of its backbone.
         weights: name and checksum of the backbone's weights.
-        input_px: size at which the backbone sees a picture.
-        finetune: ``none`` if the backbone is as its weights file has it.
-        precision: number format in which the backbone computes, see :func:`features.forward`: that
-            of the features which the head learned from.
+        input_px: size of the backbone's input image.
+        finetune: ``none`` if the backbone is unchanged from its weights file.
+        precision: number format of the backbone, see :func:`features.forward`: that of the features
+            that the head was trained on.
     """
 
     model: str
@@ -62,7 +62,7 @@ class ModelCard:
 
 
 class PredictorNetwork:
-    """A backbone, a head and their card: pictures and task to logits of grasp types."""
+    """A backbone, a head and their card: images and task to logits of grasp types."""
 
     def __init__(self, backbone: Backbone, head: BatchedMLP, card: ModelCard) -> None:
         self.backbone = for_inference(backbone)
@@ -70,10 +70,10 @@ class PredictorNetwork:
         self.card = card
 
     def logits(self, pictures: np.ndarray, task: str) -> np.ndarray:
-        """Logits (N, types) of pictures (N, H, W, 3) uint8.
+        """Logits (N, types) of images (N, H, W, 3) uint8.
 
         Raises:
-            InputError: a task the predictor does not know.
+            InputError: the predictor does not know the task.
         """
         card = self.card
         if task not in card.tasks:
@@ -104,7 +104,7 @@ def write_predictor(
 
     Args:
         heads: its head.
-        backbone: its backbone if that was fine-tuned, else None: then it is named, not copied.
+        backbone: its backbone if fine-tuned, else None: the card then names it.
     """
     state = {f"head.{name}": tensor for name, tensor in heads.state_dict().items()}
     if backbone is not None:
@@ -114,10 +114,10 @@ def write_predictor(
 
 
 def read_card(described: str | Path) -> ModelCard:
-    """A predictor's card.
+    """Read a predictor's card.
 
     Raises:
-        InputError: not a card.
+        InputError: the file is not a card.
     """
     try:
         content: dict[str, Any] = json.loads(Path(described).read_text(encoding="utf-8"))
@@ -132,16 +132,16 @@ def read_card(described: str | Path) -> ModelCard:
 def load_predictor(
     tensors: str | Path, described: str | Path, weights: Weights
 ) -> PredictorNetwork:
-    """A predictor as it was trained.
+    """Load a predictor.
 
     Args:
-        weights: the backbone's; they must be those the predictor was trained with.
+        weights: weights of the backbone, which must be those the predictor was trained with.
 
     Raises:
-        InputError: a damaged file, or other weights.
+        InputError: the file is damaged, or the weights are different.
     """
     card = read_card(described)
-    same = card.weights.endswith(f"({weights.sha256[:8]})")  # whatever the file's name
+    same = card.weights.endswith(f"({weights.sha256[:8]})")  # regardless of the file name
     if card.backbone != weights.backbone or not same:
         raise InputError(
             described,
