@@ -17,7 +17,7 @@ from grasptypes.poses import inverse
 from grasptypes.settings.synthesis import EnergySettings
 from grasptypes.synthesis.candidates import Demonstration
 from grasptypes.synthesis.closing import moved
-from grasptypes.synthesis.fields import Field, distance, distance_in
+from grasptypes.synthesis.fields import Field, distance, field_at, slope
 from grasptypes.synthesis.hand_model import FIRST_DISTAL, FIRST_PROXIMAL, PALM, HandModel
 from grasptypes.synthesis.scene import GraspScene
 
@@ -126,7 +126,8 @@ def _contact_terms(
                 bound = model.radii[candidate] + (max(nearest, thumb) if of_thumb else nearest)
                 if (x - cx) ** 2 + (y - cy) ** 2 + (z - cz) ** 2 > bound * bound:
                     continue
-                gap = distance_in(model.grids, model.grid_of_link[candidate], x, y, z)
+                link_field = field_at(model.grids, model.grid_of_link[candidate])
+                gap = distance(link_field, x, y, z)
                 if of_thumb:
                     thumb = min(thumb, max(gap, 0.0))
                 if gap < nearest:
@@ -146,13 +147,8 @@ def _faces(
     gap: float, offset_m: float,
 ) -> bool:  # fmt: skip
     """Whether the link's point nearest to an object point is close to that point's normal."""
-    grids, index = model.grids, model.grid_of_link[link]
     x, y, z = moved(pose, points, row)
-    h = 0.5 * grids.spacing
-    gx = distance_in(grids, index, x + h, y, z) - distance_in(grids, index, x - h, y, z)
-    gy = distance_in(grids, index, x, y + h, z) - distance_in(grids, index, x, y - h, z)
-    gz = distance_in(grids, index, x, y, z + h) - distance_in(grids, index, x, y, z - h)
-    norm = max(np.sqrt(gx * gx + gy * gy + gz * gz), 1e-12)
+    gx, gy, gz, norm = slope(field_at(model.grids, model.grid_of_link[link]), x, y, z)
     along = 0.0
     for axis, g in enumerate((gx, gy, gz)):
         for k in range(3):
@@ -211,11 +207,8 @@ def _overlap(model: HandModel, pose: Array, link: int, other_pose: Array, other:
         if (x - ox) ** 2 + (y - oy) ** 2 + (z - oz) ** 2 > model.radii[other] ** 2:
             continue
         x, y, z = x - other_pose[0, 3], y - other_pose[1, 3], z - other_pose[2, 3]
-        gap = distance_in(
-            model.grids, model.grid_of_link[other],
-            other_pose[0, 0] * x + other_pose[1, 0] * y + other_pose[2, 0] * z,
-            other_pose[0, 1] * x + other_pose[1, 1] * y + other_pose[2, 1] * z,
-            other_pose[0, 2] * x + other_pose[1, 2] * y + other_pose[2, 2] * z,
-        )  # fmt: skip
-        depth = max(depth, -gap)
+        bx = other_pose[0, 0] * x + other_pose[1, 0] * y + other_pose[2, 0] * z
+        by = other_pose[0, 1] * x + other_pose[1, 1] * y + other_pose[2, 1] * z
+        bz = other_pose[0, 2] * x + other_pose[1, 2] * y + other_pose[2, 2] * z
+        depth = max(depth, -distance(field_at(model.grids, model.grid_of_link[other]), bx, by, bz))
     return depth

@@ -15,12 +15,16 @@ Array = NDArray[np.float64]
 
 
 class Field(NamedTuple):
-    """A signed distance grid as plain arrays, for compiled functions."""
+    """A signed distance grid as compiled functions take it."""
 
     values: NDArray[np.float32]
-    """(nx, ny, nz) metres, negative inside."""
-    origin: Array
-    """(3,) position of the first node, metres."""
+    """(n,) metres, negative inside; the nodes of this grid and perhaps of others."""
+    start: int
+    """Where this grid begins in `values`."""
+    shape: tuple[int, int, int]
+    """Nodes along each axis."""
+    origin: tuple[float, float, float]
+    """Position of the first node, metres."""
     spacing: float
     """Metres between nodes."""
 
@@ -41,22 +45,31 @@ class Fields(NamedTuple):
 
 
 def field(grid: DistanceGrid) -> Field:
-    """The grid's arrays in the types that the compiled functions expect."""
-    values = np.ascontiguousarray(grid.values, dtype=np.float32)
-    return Field(values, np.asarray(grid.origin_m, dtype=np.float64), float(grid.spacing_m))
+    """The grid in the types that the compiled functions expect."""
+    values = np.asarray(grid.values, dtype=np.float32).ravel()
+    x, y, z = (float(number) for number in grid.origin_m)
+    return Field(values, 0, grid.values.shape, (x, y, z), float(grid.spacing_m))
 
 
 def fields(grids: Sequence[DistanceGrid]) -> Fields:
     """Pack grids of equal spacing."""
     packed = [field(grid) for grid in grids]
-    sizes = [grid.values.size for grid in packed]
     return Fields(
-        np.concatenate([grid.values.ravel() for grid in packed]),
-        np.cumsum([0, *sizes[:-1]]),
-        np.array([grid.values.shape for grid in packed]),
+        np.concatenate([grid.values for grid in packed]),
+        np.cumsum([0, *(grid.values.size for grid in packed[:-1])]),
+        np.array([grid.shape for grid in packed]),
         np.array([grid.origin for grid in packed]),
         packed[0].spacing,
     )
+
+
+@compiled(inline=True)
+def field_at(grids: Fields, index: int) -> Field:
+    """One of several fields."""
+    shapes, origins = grids.shapes, grids.origins
+    shape = shapes[index, 0], shapes[index, 1], shapes[index, 2]
+    origin = origins[index, 0], origins[index, 1], origins[index, 2]
+    return Field(grids.values, grids.starts[index], shape, origin, grids.spacing)
 
 
 @compiled(inline=True)
@@ -86,16 +99,17 @@ def distance(grid: Field, x: float, y: float, z: float) -> float:
     Outside the grid it is a lower bound, so that a step of this length never jumps over the
     surface.
     """
-    values, origin, h = grid
-    i, u, a = _cell((x - origin[0]) / h, values.shape[0])
-    j, v, b = _cell((y - origin[1]) / h, values.shape[1])
-    k, w, c = _cell((z - origin[2]) / h, values.shape[2])
-    low = (1 - v) * ((1 - w) * values[i, j, k] + w * values[i, j, k + 1]) + v * (
-        (1 - w) * values[i, j + 1, k] + w * values[i, j + 1, k + 1]
+    values, start, (nx, ny, nz), origin, h = grid
+    i, u, a = _cell((x - origin[0]) / h, nx)
+    j, v, b = _cell((y - origin[1]) / h, ny)
+    k, w, c = _cell((z - origin[2]) / h, nz)
+    n = start + (i * ny + j) * nz + k
+    low = (1 - v) * ((1 - w) * values[n] + w * values[n + 1]) + v * (
+        (1 - w) * values[n + nz] + w * values[n + nz + 1]
     )
-    i += 1
-    high = (1 - v) * ((1 - w) * values[i, j, k] + w * values[i, j, k + 1]) + v * (
-        (1 - w) * values[i, j + 1, k] + w * values[i, j + 1, k + 1]
+    n += ny * nz
+    high = (1 - v) * ((1 - w) * values[n] + w * values[n + 1]) + v * (
+        (1 - w) * values[n + nz] + w * values[n + nz + 1]
     )
     return _beyond((1 - u) * low + u * high, h * h * (a * a + b * b + c * c))
 
@@ -110,30 +124,17 @@ def distances(grid: Field, points: Array) -> Array:
 
 
 @compiled()
-def gradient(grid: Field, x: float, y: float, z: float) -> tuple[float, float, float]:
-    """Unit vector away from the surface at a point, by central differences over one node."""
+def slope(grid: Field, x: float, y: float, z: float) -> tuple[float, float, float, float]:
+    """Central differences over one node along each axis, and the length of the three."""
     h = 0.5 * grid.spacing
     gx = distance(grid, x + h, y, z) - distance(grid, x - h, y, z)
     gy = distance(grid, x, y + h, z) - distance(grid, x, y - h, z)
     gz = distance(grid, x, y, z + h) - distance(grid, x, y, z - h)
-    norm = max(np.sqrt(gx * gx + gy * gy + gz * gz), 1e-12)
-    return gx / norm, gy / norm, gz / norm
+    return gx, gy, gz, max(np.sqrt(gx * gx + gy * gy + gz * gz), 1e-12)
 
 
 @compiled()
-def distance_in(grids: Fields, index: int, x: float, y: float, z: float) -> float:
-    """Like `distance`, in one of several grids."""
-    values, starts, shapes, origins, h = grids
-    ny, nz = shapes[index, 1], shapes[index, 2]
-    i, u, a = _cell((x - origins[index, 0]) / h, shapes[index, 0])
-    j, v, b = _cell((y - origins[index, 1]) / h, ny)
-    k, w, c = _cell((z - origins[index, 2]) / h, nz)
-    n = starts[index] + (i * ny + j) * nz + k
-    low = (1 - v) * ((1 - w) * values[n] + w * values[n + 1]) + v * (
-        (1 - w) * values[n + nz] + w * values[n + nz + 1]
-    )
-    n += ny * nz
-    high = (1 - v) * ((1 - w) * values[n] + w * values[n + 1]) + v * (
-        (1 - w) * values[n + nz] + w * values[n + nz + 1]
-    )
-    return _beyond((1 - u) * low + u * high, h * h * (a * a + b * b + c * c))
+def gradient(grid: Field, x: float, y: float, z: float) -> tuple[float, float, float]:
+    """Unit vector away from the surface at a point, by central differences over one node."""
+    gx, gy, gz, norm = slope(grid, x, y, z)
+    return gx / norm, gy / norm, gz / norm

@@ -5,7 +5,7 @@ import trimesh
 from synthesis_cases import RADIUS_M, ball, scene_of
 
 from grasptypes.objects.distance_grid import DistanceGrid
-from grasptypes.synthesis.fields import distance_in, distances, fields, gradient
+from grasptypes.synthesis.fields import distance, distances, field_at, fields, gradient
 
 
 def test_same_as_the_grid_within_its_box() -> None:
@@ -36,7 +36,8 @@ def test_packed_grids_keep_their_own_distances() -> None:
     packed = fields([box, ball_again])
     for index, grid in enumerate((box, ball_again)):
         np.testing.assert_allclose(
-            distance_in(packed, index, 0.01, 0.02, -0.03), grid.distance([0.01, 0.02, -0.03])
+            distance(field_at(packed, index), 0.01, 0.02, -0.03),
+            grid.distance([0.01, 0.02, -0.03]),
         )
 
 
