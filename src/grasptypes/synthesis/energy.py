@@ -6,6 +6,7 @@ the weights are ContactGrasp's, so energies are of the same kind as the publishe
 
 from __future__ import annotations
 
+import math
 from typing import NamedTuple
 
 import numpy as np
@@ -97,7 +98,7 @@ def energies(
     """
     terms = np.empty((len(link_poses), len(TERMS)))
     reach = settings.range_m, settings.repulsion_offset_m
-    contact = _contact_terms(hand, inverse(link_poses), *targets, *reach)
+    contact = _contact_terms(hand, inverse(link_poses), targets, *reach)
     count = len(targets.points)
     terms[:, 0] = settings.attraction_weight * contact[:, 0] / count
     terms[:, 1] = -settings.repulsion_weight * contact[:, 1] / count
@@ -109,10 +110,10 @@ def energies(
 
 @compiled()
 def _contact_terms(
-    model: HandModel, T_link_object: Array, points: Array, normals: Array, attracting: int,
-    range_m: float, offset_m: float,
-) -> Array:  # fmt: skip
+    model: HandModel, T_link_object: Array, targets: Targets, range_m: float, offset_m: float
+) -> Array:
     """(n, 3): sums of attracting and repelling distances, and the thumb's smallest distance."""
+    points, attracting = targets.points, targets.attracting
     result = np.zeros((len(T_link_object), 3))
     for n in range(len(T_link_object)):
         thumb = range_m
@@ -134,26 +135,24 @@ def _contact_terms(
                     nearest, link = gap, candidate
             if m < attracting:
                 result[n, 0] += min(abs(nearest), range_m)
-            elif link < 0 or _faces(model, T_link_object[n, link], link, points, normals, m,
-                                    nearest, offset_m):  # fmt: skip
+            elif link < 0 or (
+                abs(nearest) * _sine(model, link, T_link_object[n, link], targets, m) <= offset_m
+            ):
                 result[n, 1] += min(abs(nearest), range_m)
         result[n, 2] = thumb
     return result
 
 
 @compiled()
-def _faces(
-    model: HandModel, pose: Array, link: int, points: Array, normals: Array, row: int,
-    gap: float, offset_m: float,
-) -> bool:  # fmt: skip
-    """Whether the link's point nearest to an object point is close to that point's normal."""
-    x, y, z = moved(pose, points, row)
+def _sine(model: HandModel, link: int, pose: Array, targets: Targets, row: int) -> float:
+    """Sine of the angle between an object point's normal and the direction to the link."""
+    x, y, z = moved(pose, targets.points, row)
     gx, gy, gz, norm = slope(field_at(model.grids, model.grid_of_link[link]), x, y, z)
     along = 0.0
     for axis, g in enumerate((gx, gy, gz)):
         for k in range(3):
-            along += pose[axis, k] * normals[row, k] * g / norm
-    return bool(abs(gap) * np.sqrt(max(1.0 - along * along, 0.0)) <= offset_m)
+            along += pose[axis, k] * targets.normals[row, k] * g / norm
+    return math.sqrt(max(1.0 - along * along, 0.0))
 
 
 @compiled()
@@ -174,8 +173,7 @@ def _closeness(model: HandModel, grid: Field, poses: Array) -> tuple[Array, Arra
         for link in range(FIRST_PROXIMAL, links):
             for other in range(links):
                 if _may_collide(link, other):
-                    depth[n] = max(depth[n], _overlap(model, poses[n, link], link,
-                                                      poses[n, other], other))  # fmt: skip
+                    depth[n] = max(depth[n], _overlap(model, poses[n], link, other))
     return gaps, depth
 
 
@@ -194,8 +192,9 @@ def _may_collide(link: int, other: int) -> bool:
 
 
 @compiled()
-def _overlap(model: HandModel, pose: Array, link: int, other_pose: Array, other: int) -> float:
+def _overlap(model: HandModel, poses: Array, link: int, other: int) -> float:
     """Depth of a link's deepest point in another link, 0 if they do not overlap."""
+    pose, other_pose = poses[link], poses[other]
     cx, cy, cz = moved(pose, model.centres, link)
     ox, oy, oz = moved(other_pose, model.centres, other)
     reach = model.radii[link] + model.radii[other]
