@@ -17,11 +17,6 @@ def test_unpack_reads_the_pose_row_by_row() -> None:
     assert dict(zip(kinematics.DOF_NAMES, hand.dofs_rad, strict=True))["finger_3"] == 1.2
 
 
-def test_pack_undoes_unpack_in_batches() -> None:
-    batch = NUMBERS + np.zeros((2, 3, 1))
-    np.testing.assert_array_equal(configuration.pack(*configuration.unpack(batch)), batch)
-
-
 def test_wrong_length_is_refused() -> None:
     with pytest.raises(ValueError, match="17"):
         configuration.unpack(np.zeros((4, 16)))

@@ -35,24 +35,6 @@ def test_spread_turns_fingers_outwards_and_mirrored() -> None:
     np.testing.assert_allclose(tips[0] * [-1, 1, 1], tips[1], atol=1e-12)
 
 
-def test_coupled_fingertip_turns_a_third_and_stays_within_its_limit() -> None:
-    angles = kinematics.couple(kinematics.DOF_LIMITS_RAD[:, 1])
-    np.testing.assert_allclose(np.degrees(angles[5:]), 140 / 3)
-    assert not kinematics.beyond_limits(angles, kinematics.JOINT_LIMITS_RAD, 1e-9).any()
-
-
-def test_batches_agree_with_single_calls_and_poses_are_rigid() -> None:
-    lower, upper = kinematics.JOINT_LIMITS_RAD.T
-    angles = np.random.default_rng(0).uniform(lower, upper, (4, 5, 8))
-    poses = kinematics.link_poses(angles)
-    assert poses.shape == (4, 5, 9, 4, 4)
-    np.testing.assert_allclose(poses[2, 3], kinematics.link_poses(angles[2, 3]), atol=1e-15)
-    rotations = poses[..., :3, :3]
-    identity = np.broadcast_to(np.eye(3), rotations.shape)
-    np.testing.assert_allclose(rotations @ rotations.swapaxes(-1, -2), identity, atol=1e-12)
-    np.testing.assert_allclose(np.linalg.det(rotations), 1.0)
-
-
 @pytest.mark.parametrize("joint", range(8))
 def test_link_z_axis_is_the_axis_of_its_joint(joint: int) -> None:
     angles = np.radians([40, 40, 60, 50, 70, 20, 25, 30.0])
@@ -65,12 +47,6 @@ def test_link_z_axis_is_the_axis_of_its_joint(joint: int) -> None:
     rate = np.array([turn[2, 1], turn[0, 2], turn[1, 0]])
     np.testing.assert_allclose(rate, pose[:3, 2], atol=1e-5)
     np.testing.assert_allclose(moved[:3, 3], pose[:3, 3], atol=1e-15)
-
-
-def test_beyond_limits_names_the_joint_and_allows_the_tolerance() -> None:
-    dofs = np.radians([[0, 140.4, 20, 150], [-1, 0, 0, 0]])
-    beyond = kinematics.beyond_limits(dofs, kinematics.DOF_LIMITS_RAD, np.radians(0.5))
-    np.testing.assert_array_equal(beyond, [[0, 0, 0, 1], [1, 0, 0, 0]])
 
 
 def test_a_tip_lags_by_what_is_missing_to_a_third_of_its_finger() -> None:

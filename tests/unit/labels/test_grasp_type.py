@@ -183,13 +183,6 @@ def test_enclosed_circle_touches_palm_and_both_links():
         assert away == pytest.approx(radius, abs=1e-9)
 
 
-def test_enclosed_diameter_falls_as_the_hand_closes():
-    dofs = np.radians([[0, angle, angle, angle] for angle in range(0, 141, 10)])
-    diameters = enclosed_diameters(kinematics.couple(dofs))[:, 0]
-    assert (np.diff(diameters) < 0).all()
-    assert diameters[-1] >= 0
-
-
 def test_measures_are_those_of_each_grasp_and_of_its_median_finger():
     angles = kinematics.couple(np.radians([[0, 20, 90, 140], [40, 60, 50, 60]]))
     hands = HandStates(np.tile(np.eye(4), (2, 1, 1)), angles)
