@@ -20,7 +20,7 @@ from grasptypes.yaml_files import read_yaml
 
 TABLE = Path("reports/benchmarks.csv")
 SETTINGS = Path(__file__).with_name("settings.yaml")
-# Each part is a module here; what it needs beside a checkout, and what makes that. Renders come
+# Each part is a module here, with the files it needs and the command that makes them. Renders come
 # last: torch's compiler must not be loaded after OpenGL (see grasptypes.renders.renderer).
 PARTS = {
     "records": ("logs/benchmarks", "snakemake"),
@@ -34,7 +34,7 @@ PARTS = {
 
 
 def measured(parts: list[str], settings: Mapping[str, Any], params: Params) -> Iterator[Figure]:
-    """Print and hand on what the parts measure; say of a part that cannot be measured why."""
+    """Print and yield what the parts measure; say why a part cannot be measured."""
     for part in parts:
         needed, maker = PARTS[part]
         try:

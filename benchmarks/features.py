@@ -1,4 +1,4 @@
-"""Images per second through the backbone beside a plain fp32 torchvision loop, one thread each."""
+"""Images per second of the backbone and of a plain fp32 torchvision loop, one thread each."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ def measure(settings: Mapping[str, Any], params: Params) -> Iterator[Figure]:
 
 
 def _network(weights: Weights) -> torchvision.models.MobileNetV2:
-    """torchvision's MobileNetV2 as it comes; with its random start if other weights are in use."""
+    """torchvision's MobileNetV2; with random weights if another network is in use."""
     network = torchvision.models.mobilenet_v2()
     if weights.backbone == "mobilenet_v2":
         network.load_state_dict(torch.load(weights.path, weights_only=True))

@@ -1,4 +1,4 @@
-"""What all benchmarks share: turns taken with a reference, and the table of figures."""
+"""Shared by all benchmarks: timing in turns with a reference, and the table of figures."""
 
 from __future__ import annotations
 
@@ -27,11 +27,11 @@ _LINE = "{:44} {:>12} {:12} {:>12} {:>7}"
 
 
 class NotReady(Exception):
-    """A part cannot be measured here, and why."""
+    """A part cannot be measured here; the message says why."""
 
 
 class Figure(NamedTuple):
-    """A measured value beside what it is compared with, both in the same unit."""
+    """A measured value and its reference, in the same unit."""
 
     name: str
     value: float
@@ -42,7 +42,7 @@ class Figure(NamedTuple):
 
 
 def figure(name: str, value: float, unit: str, reference: float) -> Figure:
-    """A value beside a reference that is not measured in turns with it."""
+    """A value with a reference that is not measured in turns with it."""
     return Figure(name, float(value), unit, float(reference), float(value / reference))
 
 
@@ -54,10 +54,10 @@ def seconds(
 ) -> NDArray[np.float64]:
     """Time (rounds, works), seconds, of works that take turns.
 
-    A machine that is busy for a while slows all works of a round alike, so their ratios stay.
+    A busy machine slows all works of a round alike, so their ratios are reliable.
 
     Args:
-        warm_up: run one round more, first and not counted, which compiles and fills caches.
+        warm_up: run an extra, uncounted round first, to compile and fill caches.
         clock: wall time; for works of one thread ``time.process_time`` leaves other processes out.
     """
     taken = np.empty((rounds + warm_up, len(works)))
@@ -70,11 +70,11 @@ def seconds(
 
 
 def rates(name: str, unit: str, taken_s: NDArray[np.float64], done: int) -> Figure:
-    """Ours beside the reference's as things done a second; medians, the ratio over the rounds.
+    """Our rate and the reference's in things per second: medians, and the ratio over the rounds.
 
     Args:
         taken_s: (rounds, 2) of :func:`seconds`, ours first.
-        done: how many things one turn of either does.
+        done: number of things done per turn.
     """
     ours, reference = done / np.median(taken_s, axis=0)
     ratio = np.median(taken_s[:, 1] / taken_s[:, 0])

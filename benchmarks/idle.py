@@ -1,4 +1,4 @@
-"""Seconds that Snakemake and DVC take to find that nothing is to be done."""
+"""Seconds that Snakemake and DVC take to find that there is nothing to do."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ COMMANDS = {
 
 
 def measure(settings: Mapping[str, Any], params: Params) -> Iterator[Figure]:
-    """Only where there is nothing to be done: no benchmark starts an hour's work."""
+    """Only measured if there is nothing to do: no benchmark starts an hour of work."""
     for tool, (command, question, answer) in COMMANDS.items():
         if answer not in _run(question):
             raise NotReady(f"{tool} has work to do: dvc repro")

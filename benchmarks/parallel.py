@@ -1,4 +1,4 @@
-"""How much of two cores a run with -j2 makes use of."""
+"""How well a run with -j2 uses two cores."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from grasptypes.versions.checkout import copy_checkout
 def measure(settings: Mapping[str, Any], params: Params) -> Iterator[Figure]:
     """A slice of the workflow from nothing: one job at a time, two, and twice at once.
 
-    Two runs that know nothing of each other show what the machine's cores take from each other.
+    Two independent runs show how much the machine's cores slow each other down.
     """
     folder = Path(settings["folder"])
     shutil.rmtree(folder, ignore_errors=True)

@@ -1,4 +1,4 @@
-"""What bfloat16 features change: Table I beside float32's; takes some minutes.
+"""Effect of bfloat16 features on Table I, compared with float32; takes some minutes.
 
 ``python -m benchmarks.precision``, after ``snakemake renders``.
 """

@@ -19,7 +19,7 @@ BEFORE_LABELS = {"prepare_object", "map_contacts", "synthesize_grasps"}
 
 
 class Record(NamedTuple):
-    """How a file came to be."""
+    """How a file was made."""
 
     rule: str
     job: int
@@ -30,7 +30,7 @@ class Record(NamedTuple):
 
 
 def measure(settings: Mapping[str, Any], params: Params) -> Iterator[Figure]:
-    """All rules beside the whole, the main job beside its aims, memory beside the machine's."""
+    """All rules and the total, the main job and its targets, memory and the machine's."""
     records = read_records(Path(".snakemake/metadata"))
     whole_s = busy_s(records.values())
     for rule in sorted({record.rule for record in records.values()}):
@@ -39,7 +39,7 @@ def measure(settings: Mapping[str, Any], params: Params) -> Iterator[Figure]:
     main = ancestors(records, MAIN_JOB)
     after = [record for record in main if record.rule not in BEFORE_LABELS]
     yield figure("wall time of the main job", busy_s(main), "s", settings["aim_main_job_s"])
-    # A whole run mixes these jobs with those that synthesize, so their own times are added up.
+    # A full run mixes these jobs with the synthesis, so their own times are added up.
     jobs = {(record.rule, record.job): record for record in after}.values()
     after_s = sum(job.ended_s - job.begun_s for job in jobs) / settings["jobs"]
     yield figure("time from grasps to Table I", after_s, "s", settings["aim_after_grasps_s"])
@@ -53,7 +53,7 @@ def read_records(folder: Path) -> dict[str, Record]:
     records = {}
     for path in folder.rglob("*"):
         if path.is_file():
-            # The result's path in base64, cut into folders where it is longer than a name can be.
+            # The result's path in base64, split into folders if it is too long for a file name.
             encoded = "".join(part.removeprefix("@") for part in path.relative_to(folder).parts)
             name = base64.urlsafe_b64decode(encoded).decode()
             found = json.loads(path.read_text())
@@ -63,7 +63,7 @@ def read_records(folder: Path) -> dict[str, Record]:
 
 
 def ancestors(records: Mapping[str, Record], target: str) -> list[Record]:
-    """The records of a file and of all that it was made from."""
+    """The records of a file and of everything it was made from."""
     waiting, seen = [target], {}
     while waiting:
         name = waiting.pop()
@@ -83,11 +83,11 @@ def busy_s(records: Collection[Record]) -> float:
 
 
 def peaks_mb(folder: Path) -> dict[str, float]:
-    """The largest resident memory of a job of each rule, MiB, as Snakemake's benchmarks have it."""
+    """The largest resident memory of a job of each rule, MiB, from Snakemake's benchmarks."""
     peaks: dict[str, float] = {}
     for path in sorted(folder.rglob("*.tsv")):
         rule = path.relative_to(folder).parts[0].removesuffix(".tsv")
-        # A job of less than a second ends before it is looked at.
+        # A job of less than a second ends before it is sampled.
         peak = pd.to_numeric(pd.read_csv(path, sep="\t")["max_rss"], errors="coerce").max()
         if peak > 0:
             peaks[rule] = max(peaks.get(rule, 0.0), float(peak))

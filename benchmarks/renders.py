@@ -1,6 +1,6 @@
-"""Finished images per second beside a bare pyrender loop over the same scenes.
+"""Finished images per second, compared with a bare pyrender loop over the same scenes.
 
-Both with the one thread that a job has: a renderer that takes all cores is not a job's rate.
+Both use one thread, like a job; the rate of a renderer on all cores would not apply to a job.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""How fast grasps are searched and tested, on one core."""
+"""Speed of searching and testing grasps, on one core."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ class Case(NamedTuple):
 
 
 def measure(settings: Mapping[str, Any], params: Params) -> Iterator[Figure]:
-    """Candidates, physics tests, and valid grasps with all that they take."""
+    """Candidates, physics tests, and valid grasps with everything they need."""
     task = _load(settings, params)
     hand, surface_m = sample_hand(params.synthesis), task.contact_map.points.astype(np.float64)
     scene = grasp_scene(hand.search, task.geometry, surface_m)
@@ -61,7 +61,7 @@ def measure(settings: Mapping[str, Any], params: Params) -> Iterator[Figure]:
         begun = time.process_time()
         grasps, _ = synthesize_sessions(*case)
         hours = (time.process_time() - begun) / 3600
-    # The reference: every first grasp holds, and nothing has to be searched.
+    # Reference: every first grasp holds, and no search is needed.
     valid = float(grasps.valid.sum()) / hours
     yield figure("valid grasps, beside tests alone", valid, "1/core-hour", tests.value * 3600)
 
@@ -74,7 +74,7 @@ def _load(settings: Mapping[str, Any], params: Params) -> SynthesisTask:
 
 
 def _candidates(case: Case, rounds: int) -> Figure:
-    """Hands placed, closed and given an energy, beside one look-up of distance a point of each."""
+    """Hands placed, closed and evaluated, compared with one distance lookup per point."""
     shown, number = list(demonstrations(case.task.contact_map)), case.settings.candidates.number
     points = np.tile(case.scene.hand.points, (number, 1))
 
@@ -100,7 +100,7 @@ def _place(case: Case, demonstration: Demonstration, draw: np.random.Generator) 
 
 
 def _tests(case: Case, world: Physics, rounds: int) -> Figure:
-    """The test of a grasp that holds, beside as many bare time steps of hand and object."""
+    """The test of a grasp that holds, compared with as many bare time steps of hand and object."""
     hands = _holding(case, world)
     before = world.steps
     hold = partial(world.hold, hands.T_object_hand[0], hands.joint_angles_rad[0])

@@ -1,4 +1,4 @@
-"""Seconds to train one model, all folds and seeds side by side, beside training them in turn."""
+"""Seconds to train one model, all folds and seeds in parallel, compared with one by one."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from grasptypes.settings.params import Params
 
 
 def measure(settings: Mapping[str, Any], params: Params) -> Iterator[Figure]:
-    """One thread, as in the workflow; one member stands for all that would be trained in turn."""
+    """One thread, as in the workflow; one member represents those trained one by one."""
     torch.set_num_threads(1)
     name = settings["labels"], settings["model"]
     samples = "samples" if settings["labels"] == "simulated" else "published_samples"

@@ -39,7 +39,7 @@ class UserProvidedLocator(_ByReachableCode, UserProvidedCacheLocator):
 
 
 class InTreeLocator(_ByReachableCode, InTreeCacheLocator):
-    """In ``__pycache__`` beside the module."""
+    """In ``__pycache__`` next to the module."""
 
 
 class UserWideLocator(_ByReachableCode, UserWideCacheLocator):

@@ -1,4 +1,4 @@
-"""One thing a user can get wrong, and how it ends."""
+"""A mistake that a user can make, and how it is reported."""
 
 from __future__ import annotations
 
@@ -29,12 +29,12 @@ class Case:
     """A mistake.
 
     Attributes:
-        kind: of what is handed in; the table's sections.
-        what: is wrong.
+        kind: kind of input; the sections of the table.
+        what: the mistake.
         files: path to content, or to a function that writes it.
-        call: what the user starts, in the folder of the files.
-        names: texts that the line must hold: the file, the key, and what is allowed.
-        environment: variables that the user has set.
+        call: what the user runs, in the folder of the files.
+        names: texts that the message must contain: the file, the key, and what is allowed.
+        environment: environment variables set by the user.
     """
 
     kind: str
@@ -87,7 +87,7 @@ def _content() -> set[str]:
 
 
 def _end_of(case: Case) -> tuple[int, str]:
-    """Exit status and what was printed; anything but an orderly end is raised."""
+    """Exit status and output; unexpected exceptions are raised."""
     printed = io.StringIO()
     status = 0
     with contextlib.redirect_stdout(printed), contextlib.redirect_stderr(printed):

@@ -22,7 +22,7 @@ MODEL = "models/simulated/task_vector"
 
 
 def asked(what: str, arguments: tuple[str, ...], *names: str, **models: Content) -> Case:
-    """A call of `grasptypes predict` with a good picture."""
+    """A call of `grasptypes predict` with a good image."""
     files = FOLDER | {"cup.png": WHOLE} | {f"{MODEL}/predictor.{k}": v for k, v in models.items()}
     return Case("command", what, files, command(*arguments), names)
 

@@ -1,4 +1,4 @@
-"""Mistakes in pictures given to `grasptypes predict`."""
+"""Mistakes in images given to `grasptypes predict`."""
 
 from __future__ import annotations
 
@@ -21,14 +21,14 @@ def command(*arguments: str) -> Callable[[], None]:
 
 
 def encoded(picture: Image.Image, kind: str = "png", **options: Any) -> bytes:
-    """The bytes of a picture file."""
+    """The bytes of an image file."""
     buffer = io.BytesIO()
     picture.save(buffer, kind, **options)
     return buffer.getvalue()
 
 
 def picture(what: str, content: Content, *names: str, name: str = "cup.png") -> Case:
-    """A picture that --image names."""
+    """An image that --image names."""
     files = {
         name: content,
         "params.yaml": (ROOT / "params.yaml").read_bytes(),

@@ -1,4 +1,4 @@
-"""All mistakes, and the table of how each one ends: `make bad-input` writes docs/bad_input.md."""
+"""All mistakes, and the table of their messages: `make bad-input` writes docs/bad_input.md."""
 
 from __future__ import annotations
 

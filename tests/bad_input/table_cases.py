@@ -22,7 +22,7 @@ PARAMS = (ROOT / "params.yaml").read_bytes()
 
 
 def csv(*changes: dict[str, str], drop: str = "", separator: str = ",") -> str:
-    """The authors' table with a row a change."""
+    """The authors' table with a row per change."""
     rows = [ROW | {"Session": str(number)} | change for number, change in enumerate(changes, 1)]
     table = pd.DataFrame(rows).drop(columns=[drop] if drop else [])
     return table.to_csv(index=False, sep=separator)

@@ -1,4 +1,4 @@
-"""Every mistake ends with one line that names the file and the key, and writes nothing."""
+"""Every mistake is reported in one line that names the file and the key; nothing is written."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ def test_there_are_enough_of_them_and_none_is_there_twice() -> None:
 
 
 def test_the_documentation_lists_them_all() -> None:
-    """The lines themselves may change with a library's version: make bad-input writes them anew."""
+    """The lines themselves may change with a library's version: make bad-input rewrites them."""
     documented = TABLE.read_text(encoding="utf-8")
     for case in CASES:
         assert row(case, "").split("`")[0].rstrip() in documented

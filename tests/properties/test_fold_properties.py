@@ -1,4 +1,4 @@
-"""Folds share out pictures evenly, whatever the objects; random numbers follow their key."""
+"""Folds share out images evenly, whatever the objects; random numbers follow their key."""
 
 import numpy as np
 from hypothesis import given

@@ -83,7 +83,7 @@ print(json.dumps({name: os.environ[name] for name in ("OMP_NUM_THREADS", "MPLBAC
     assert used_with(HOSTILE, code) == {"OMP_NUM_THREADS": "1", "MPLBACKEND": "Agg"}
 
 
-# What users set for libraries and tools that answer a picture or draw it, beside `HOSTILE`.
+# What users set for libraries and tools that answer an image or draw it, beside `HOSTILE`.
 ELSEWHERE = {
     "TMPDIR": "/nonexistent",
     "MPLCONFIGDIR": "/proc/none",

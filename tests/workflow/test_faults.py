@@ -1,4 +1,4 @@
-"""What the machine can do to a run: it says so on one line, and nothing is lost."""
+"""Faults of the machine: the run reports them in one line, and nothing is lost."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from verify import checksums
 
 pytestmark = pytest.mark.slow
 OBJECT = "data/objects/mug"
-# An intermediate result that was lost is made anew only where it is asked for.
+# A lost intermediate result is only recomputed if it is requested.
 RUN = ("snakemake", "-j2", "objects", "renders", "predictors", TARGET)
 
 

@@ -1,4 +1,4 @@
-"""What a user adds: a third task for known objects, and a mesh with a measured contact map."""
+"""A user's additions: a third task for known objects, and a mesh with a measured contact map."""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
-"""What a user looks at, in a real browser: the report and the MLflow UI, without a network.
+"""The report and the MLflow UI in a real browser, without a network.
 
-Screenshots lie in pytest's temporary folder.
+Screenshots are in pytest's temporary folder.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""What Snakemake says before it runs anything, and how a run ends that fails."""
+"""What Snakemake reports before it runs anything, and how a failing run ends."""
 
 import os
 import subprocess
@@ -56,7 +56,7 @@ def test_a_dry_run_imports_nothing_that_takes_seconds(
 
 
 def test_jobs_start_only_for_who_holds_the_folder(repository: Repository) -> None:
-    """Whoever else reads the workflow meanwhile leaves alone what a run has at work."""
+    """Another process that reads the workflow does not disturb a run."""
     half = repository.path / "data/objects/mug/.live.1.tmp"
     half.parent.mkdir(parents=True)
     half.touch()

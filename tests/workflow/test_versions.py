@@ -1,4 +1,4 @@
-"""Snakemake and DVC agree on what is stale, whoever is asked and wherever the files come from."""
+"""Snakemake and DVC agree on what is stale, wherever the files come from."""
 
 import os
 import re

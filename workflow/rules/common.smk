@@ -83,7 +83,7 @@ def variant_views():
 
 
 def varied_objects(labels):
-    """The catalogue objects that a label source knows."""
+    """The catalogue objects with labels in a label source."""
     return [name for name in KNOWN[labels].objects if name in config["objects"]["names"]]
 
 
@@ -144,7 +144,7 @@ def weights_choice(record="data/backbone.json"):
     try:
         found = json.loads(Path(record).read_text())
         backbone, sha256 = found["backbone"], found["sha256"]
-    except (ValueError, KeyError, TypeError):  # damaged: it is made anew
+    except (ValueError, KeyError, TypeError):  # damaged: it is recomputed
         return chosen_weights()
     by_default = sha256.startswith(DOWNLOAD_SHA256_START) or backbone != "mobilenet_v2"
     return "default" if by_default else sha256[:16]

@@ -1,4 +1,4 @@
-"""What the commands share: an option, names as they are shown, and checks of targets."""
+"""Shared by the commands: an option, printable names, and checks of output paths."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ def check_target(path: Path, suffix: str) -> None:
     """Reject a file that cannot be written, before anything is computed.
 
     Raises:
-        InputError: another suffix, a folder, or a place where nothing can be written.
+        InputError: a wrong suffix, a folder, or a place that is not writable.
     """
     if path.suffix.lower() != suffix:
         raise InputError(path, "", f"must end in {suffix}")
@@ -43,8 +43,7 @@ def check_place(path: Path) -> None:
     """Reject a file or folder that cannot be created, by a trial that leaves nothing behind.
 
     Raises:
-        InputError: the nearest folder above it that is there cannot be written, or a name is
-            too long.
+        InputError: the nearest existing parent folder is not writable, or a name is too long.
     """
     above = Path()
     try:

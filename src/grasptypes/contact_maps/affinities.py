@@ -107,7 +107,7 @@ def check_rows(
     part_names: Collection[str],
     path: str | Path,
 ) -> None:
-    """Check that an object and task (`name`) has rows, of parts that the object really has.
+    """Check that an object and task (`name`) has rows, and that the object has their parts.
 
     Raises:
         InputError: there is no row for them, or a row names a part the object does not have.

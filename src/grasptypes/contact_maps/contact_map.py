@@ -87,14 +87,14 @@ class Session:
 
 @dataclass(frozen=True)
 class MapTask:
-    """What the contact maps of one object and task are drawn from.
+    """Input of the contact maps of one object and task.
 
     Attributes:
-        points: of the object.
-        part_names: of the object.
+        points: points on the object.
+        part_names: parts of the object.
         name: object and task, part of the key of every draw.
-        seed: part of that key, too.
-        scale: the object's size; hands grow with it, as ContactGrasp's contact maps do.
+        seed: also part of that key.
+        scale: scale of the object and of the hands, as in ContactGrasp's contact maps.
     """
 
     points: Points
@@ -119,7 +119,7 @@ class MapTask:
         return cls(points, names, name, seed_number, geometry.properties.scale, settings)
 
     def key(self, session: int) -> tuple[str, str, int, int]:
-        """All that a session's draws depend on beside the settings."""
+        """Key of a session's random draws, which depend on nothing else but the settings."""
         return (*self.name, session, self.seed)
 
     def draw_hand(self, draw: np.random.Generator) -> HumanHand:
@@ -130,13 +130,13 @@ class MapTask:
         return HumanHand.of_length(self.scale * length_m, self.settings.hand)
 
     def opposes(self, contact: NDArray[np.float64], closing: NDArray[np.float64]) -> bool:
-        """Whether what a contact (N,) touches faces both ways along the closing direction (3,)."""
+        """Whether the touched surface of a contact (N,) faces both ways along `closing` (3,)."""
         facing = self.points.normals[contact >= self.settings.threshold] @ closing
         return bool((facing > OPPOSED_COSINE).any() and (facing < -OPPOSED_COSINE).any())
 
 
 def sample_surface(mesh: Surface, count: int, seed_number: int) -> Points:
-    """At most `count` points spread evenly over a surface; a face has its first vertex' part."""
+    """At most `count` evenly spread points; a face has the part of its first vertex."""
     shape = trimesh.Trimesh(mesh.vertices, mesh.faces, process=False)
     points_m, face = trimesh.sample.sample_surface_even(shape, count, seed=seed_number % 2**31)
     parts = np.asarray(mesh.part_index)[np.asarray(mesh.faces)[face, 0]]
@@ -149,7 +149,7 @@ def draw_session(task: MapTask, rows: Sequence[AffinityRow], number: int) -> Ses
     If thumb and fingers do not end up on opposing sides of the object, the person tries again.
 
     Raises:
-        InputError: nobody can hold the object as the drawn row says.
+        InputError: the object cannot be held as the drawn row says.
     """
     points, settings, key = task.points, task.settings, task.key(number)
     draw = rng("contact_map", *key)
@@ -212,10 +212,10 @@ def _single(values: ArrayLike) -> NDArray[np.float32]:
 
 
 def _choose(rows: Sequence[AffinityRow], key: tuple[str, str, int, int]) -> AffinityRow:
-    """A row by affinity: over any run of sessions each comes up in proportion to its affinity.
+    """Choose a row so that over the sessions each occurs in proportion to its affinity.
 
-    Steps of the golden ratio leave no long gaps, so 20 sessions show the table's shares better
-    than 20 independent draws would, and session 7 stays the same if there are 30.
+    With steps of the golden ratio, 20 sessions match the table's shares better than 20 independent
+    draws, and session 7 stays the same if there are 30.
     """
     object_name, task, session, seed_number = key
     start = seed("holds", object_name, task, seed_number) / 2**63

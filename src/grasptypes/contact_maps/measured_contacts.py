@@ -80,10 +80,10 @@ def map_measured_contacts(task: MapTask, probability: Array, path: str | Path) -
     """Contact map from a measured probability (N,) and sessions drawn from it.
 
     Args:
-        path: where the probability comes from.
+        path: source of the probability, for errors.
 
     Raises:
-        InputError: in none of a session's placements thumb and fingers end up on two sides.
+        InputError: a session has no placement with thumb and fingers on opposing sides.
     """
     people = []
     for number in range(1, task.settings.sessions + 1):
@@ -110,7 +110,7 @@ def draw_measured_session(
         grips: grips of the affinity table to choose from.
 
     Returns:
-        None if thumb and fingers end up on two sides in none of the placements.
+        None if thumb and fingers find no opposing sides in any placement.
     """
     points, settings = task.points, task.settings
     draw = rng("measured_contacts", *task.key(number))

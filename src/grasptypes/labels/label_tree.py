@@ -89,7 +89,7 @@ class _Drawing:
             else:
                 end = self.question(child, depth + 1), -depth - 1 + HALF
             self.axes.plot([place, end[0]], [bottom, end[1]], color="#9a9a9a", zorder=0)
-            # Far enough down that the words of the two branches stand beside each other.
+            # Low enough that the texts of the two branches are side by side.
             down = max(0.3, WORDS / max(abs(end[0] - place), WORDS))
             self._write(
                 place + down * (end[0] - place), bottom + down * (end[1] - bottom), words, BARE

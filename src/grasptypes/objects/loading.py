@@ -29,17 +29,17 @@ def load_object(
 ) -> ObjectGeometry:
     """Read a mesh, repair it where possible, and prepare it for planning and prediction.
 
-    The prepared files last as long as the object; `properties.repairs` lists what was repaired.
+    The prepared files exist as long as the object; `properties.repairs` lists the repairs.
 
     Args:
         path: an STL, OBJ, PLY or GLB file.
         unit: its length unit: m, cm, mm or inch.
-        mass_kg: of the object; by default that of a solid of water.
-        name: of the object; by default the file's.
-        settings: limits and resolution; by default those of params.yaml in the current folder.
+        mass_kg: mass of the object; default: that of a solid of water.
+        name: name of the object; default: that of the file.
+        settings: limits and resolution; default: from params.yaml in the current folder.
 
     Raises:
-        InputError: one line that says why the mesh cannot be used.
+        InputError: the mesh cannot be used; the message says why.
     """
     own = own_object(path, unit, mass_kg)
     objects = settings or read_params("params.yaml").objects
@@ -56,7 +56,7 @@ def load_object(
 
 
 def own_object(path: str | Path, unit: str, mass_kg: float | None = None) -> OwnObject:
-    """A user's mesh as a block `objects.own.<name>` of params.yaml would describe it.
+    """A user's mesh as described by a block `objects.own.<name>` of params.yaml.
 
     Raises:
         InputError: an unknown unit, or a mass that is not positive.

@@ -1,4 +1,4 @@
-"""An object with all that belongs to it, from the files that preparing it has written."""
+"""A prepared object with its shape and properties, read from its files."""
 
 from __future__ import annotations
 
@@ -25,9 +25,9 @@ class ObjectGeometry:
     """A prepared object: shape, named parts, mass and inertia (SI units, the object's frame).
 
     Attributes:
-        folder: of its files, see `object_files`.
-        properties: name, mass, centre of mass, inertia, bounds, and what was repaired.
-        source: the user's mesh that it was made from; empty for an object of the catalogue.
+        folder: folder of its files, see `object_files`.
+        properties: name, mass, centre of mass, inertia, bounds, and repairs.
+        source: the user's mesh; empty for a catalogue object.
     """
 
     folder: Path
@@ -41,12 +41,12 @@ class ObjectGeometry:
 
     @property
     def visual(self) -> Path:
-        """A GLB of what the object looks like."""
+        """GLB of the visual mesh."""
         return self.folder / VISUAL
 
     @property
     def collision(self) -> Path:
-        """An OBJ with a group (`o`) for each convex part."""
+        """OBJ with one group (`o`) per convex part."""
         return self.folder / COLLISION
 
     @cached_property
@@ -61,9 +61,9 @@ class ObjectGeometry:
 
 
 def read_object(folder: str | Path) -> ObjectGeometry:
-    """The object whose files lie in a folder.
+    """The object in a folder of prepared files.
 
     Raises:
-        InputError: there are none, or they are damaged.
+        InputError: files are missing or damaged.
     """
     return ObjectGeometry(Path(folder), read_properties(Path(folder) / PROPERTIES))

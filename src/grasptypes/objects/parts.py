@@ -54,7 +54,7 @@ class ImportedModel:
     """An object that is to be prepared.
 
     Attributes:
-        model: one part `body`, or one a named geometry of a GLB, if it is a user's.
+        model: for a user's mesh one part `body`, or one part per named geometry of a GLB.
         scale: size to prepare it at.
         mass_kg: given mass; None if the density decides.
         repairs: what was mended, in words.

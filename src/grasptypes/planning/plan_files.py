@@ -52,7 +52,7 @@ ATTEMPT_TABLE_SCHEMA = pa.DataFrameSchema(
 
 
 def write_plan(plan: Plan, folder: Path) -> None:
-    """Write everything there is to a new folder, which appears whole or not at all."""
+    """Write a plan to a new folder, which appears completely or not at all."""
     folder = folder.resolve()
     staged = folder.with_name(staging_name(folder.name))
     staged.mkdir(parents=True)
@@ -64,7 +64,7 @@ def write_plan(plan: Plan, folder: Path) -> None:
 
 
 def _write_files(plan: Plan, folder: Path) -> None:
-    """Tables, `plan.json`, the object, formats and a picture."""
+    """Write tables, `plan.json`, the object, exchange formats and an image."""
     shown = plan.params.plan.shown
     valid = plan.ranking[plan.ranking.valid]
     pictured = plan.ranking.valid & (np.arange(len(plan.ranking)) < shown)

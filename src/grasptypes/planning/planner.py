@@ -61,11 +61,11 @@ class Plan:
     """Planned grasps for one object and task.
 
     Attributes:
-        params: it was made with.
-        contact_map: name of the measured map that was used, if any.
-        attempts: one row a hand that was tried, labelled: the columns of `grasps.ATTEMPT_SCHEMA`,
-            those of `dataset.label_grasps`, `grip` and `tries`.
-        ranking: the chosen ones of them, one a session, best first.
+        params: parameters of the plan.
+        contact_map: name of the measured map, if any.
+        attempts: one row per grasp tried, labelled: columns of `grasps.ATTEMPT_SCHEMA` and
+            `dataset.label_grasps`, `grip` and `tries`.
+        ranking: the chosen attempts, one per session, best first.
     """
 
     geometry: ObjectGeometry
@@ -78,16 +78,16 @@ class Plan:
 
     @property
     def grasps(self) -> list[Grasp]:
-        """One grasp a session, best first; those that failed the physics test come last."""
+        """One grasp per session, best first; those that failed the physics test come last."""
         return grasps_of(self.ranking, self.geometry)
 
     def write(self, folder: str | Path) -> None:
-        """Write tables, `plan.json`, the formats of the field and a picture to a new folder.
+        """Write tables, `plan.json`, exchange formats and an image to a new folder.
 
-        The folder appears whole or not at all.
+        The folder appears completely or not at all.
 
         Raises:
-            OSError: it cannot be written, or is there already and not empty.
+            OSError: the folder is not writable, or exists and is not empty.
         """
         from grasptypes.planning.plan_files import write_plan
 
@@ -162,15 +162,15 @@ class Planner:
     def check_request(
         self, task: str, types: Sequence[str], mass_kg: float | None, source: str = ""
     ) -> tuple[str, ...]:
-        """The wanted types, spelled as in `GRASP_TYPES`, if a plan can be made for all of this.
+        """Check a request; returns the requested types, spelled as in `GRASP_TYPES`.
 
         Args:
-            mass_kg: of the object, if it is known.
+            mass_kg: mass of the object, if known.
             source: the mesh, once it is read.
 
         Raises:
-            InputError: an unknown task or type, a mass that the hand cannot lift or that nothing
-                weighs, or no type where no trained predictor can choose some.
+            InputError: an unknown task or type, a mass out of range, or no type although no trained
+                predictor can choose one.
         """
         if task not in self.params.tasks:
             allowed = ", ".join(self.params.tasks)

@@ -29,7 +29,7 @@ def encodings(tasks: Mapping[str, int]) -> dict[str, int]:
 def shift_colours(pictures: np.ndarray, shift: int) -> np.ndarray:
     """Encode a task in images: add ``shift`` to each RGB value, clipped to [0, 255].
 
-    Paper, section III-D. Args: pictures (..., 3) uint8. Returns: the same shape and type.
+    Paper, section III-D. Args: images (..., 3) uint8. Returns: the same shape and type.
     """
     return np.clip(pictures.astype(np.int16) + shift, 0, 255).astype(np.uint8)
 

@@ -1,4 +1,4 @@
-"""Asking a trained predictor about new images, and what it answers."""
+"""Predictions of a trained model for new images."""
 
 from __future__ import annotations
 
@@ -34,13 +34,13 @@ MODEL_OF_ROW = {variant.row: name for name, variant in VARIANTS.items()}
 
 @dataclass(frozen=True)
 class Answer:
-    """What a predictor says of one image, or of several views of one object together.
+    """Prediction for one image, or for several views of one object together.
 
     Attributes:
-        name: of what was shown.
-        types: (K) grasp types as cards spell them.
+        name: name of the image or object.
+        types: (K) grasp types, spelled as in model cards.
         probability: (K,) softmax; sums to one.
-        sigmoid: (K,) how sure it is of each type by itself.
+        sigmoid: (K,) probability of each type on its own.
     """
 
     name: str
@@ -50,7 +50,7 @@ class Answer:
 
     @classmethod
     def of_logits(cls, name: str, types: Sequence[str], logits: np.ndarray) -> Answer:
-        """The mean over images of the answers to each, from logits (images, K)."""
+        """The answer averaged over images, from logits (images, K)."""
         return cls(name, types, softmax(logits, axis=-1).mean(axis=0), expit(logits).mean(axis=0))
 
     @property
@@ -60,7 +60,7 @@ class Answer:
 
     @property
     def grasp_types(self) -> list[str]:
-        """The chosen types as `GRASP_TYPES` spells them; the likeliest if none is chosen."""
+        """The chosen types, spelled as in `GRASP_TYPES`; the likeliest if none is chosen."""
         likeliest = self.probability == self.probability.max()
         found = self.chosen if self.chosen.any() else likeliest
         return [spelled(kind) for kind, yes in zip(self.types, found, strict=True) if yes]
@@ -116,7 +116,7 @@ class Predictor:
             folder: checkout with the parameters and models.
             labels: label source it was trained on; default: from the parameters.
             model: name, or letter of its row in Table I; default: from the parameters.
-            params: other parameters than the checkout's.
+            params: parameters to use instead of the checkout's.
 
         Raises:
             InputError: the model is not trained, or was trained with other weights.
@@ -181,7 +181,7 @@ class Predictor:
         return task
 
     def describe(self, answers: Sequence[Answer], task: str | None) -> dict[str, Any]:
-        """Everything there is to say of answers for a task, as plain values for JSON."""
+        """The complete answers for a task, as plain values for JSON."""
         card = self.card
         return {
             "model": card.model,
@@ -203,7 +203,7 @@ class Predictor:
 
 
 def report(answers: Sequence[Answer], card: ModelCard, task: str) -> str:
-    """Answers for people: a block for one, a row each for several."""
+    """Answers as text: a block for one, one row each for several."""
     whose = f"task {task}" if card.sees_task else "whatever the task"
     lines = [
         f"model     {card.model}, {card.labels} labels, {whose}",

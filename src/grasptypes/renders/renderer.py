@@ -99,7 +99,7 @@ class Camera:
     def compose(
         self, picture: np.ndarray, points: np.ndarray, T_object_camera: np.ndarray
     ) -> np.ndarray:
-        """Lay an image of :meth:`shoot` over the ground with its shadow: (size, size, 3) uint8."""
+        """Compose an image of :meth:`shoot` with the ground and shadow: (size, size, 3) uint8."""
         settings = self.settings
         ground = (255 - picture[..., 3]) * np.float32(1 / 255)
         if settings.shadow_strength > 0:
@@ -148,7 +148,7 @@ class Views:
         return self._finished(lambda *view: png_bytes(self._camera.compose(*view), level))
 
     def _finished(self, finish: Any) -> Iterator[Any]:
-        """``finish`` runs beside the drawing of the next view, one view behind it."""
+        """Run ``finish`` on each image while the next view is drawn."""
         count = self._camera.settings.shadow_points
         points = surface_points(self._parts, count, rng("shadow", self._key, self._seed))
         with ThreadPoolExecutor(max_workers=1) as pool:

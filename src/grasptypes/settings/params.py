@@ -67,7 +67,7 @@ class Params(Settings):
 
     @property
     def colour_shifts(self) -> dict[str, int]:
-        """What each task adds to the RGB values of images that show it."""
+        """Colour shift that encodes each task."""
         return {name: task.colour_shift for name, task in self.tasks.items()}
 
     @model_validator(mode="after")
@@ -88,7 +88,7 @@ class Params(Settings):
 
 
 def read_params(path: str | Path) -> Params:
-    """The parameters of a file.
+    """Read the parameters of a file.
 
     Raises:
         InputError: the file cannot be read, or has a wrong key; names the first one.
@@ -100,7 +100,7 @@ def checkout_params(folder: str | Path) -> Params:
     """The parameters of a checkout.
 
     Raises:
-        InputError: there are none, or wrong ones.
+        InputError: parameters are missing or invalid.
     """
     path = Path(folder, "params.yaml")
     if not path.is_file():

@@ -1,4 +1,4 @@
-"""Contact maps are read as ContactDB publishes them; other files are refused."""
+"""Contact maps are read as ContactDB publishes them; other files are rejected."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""A plan for one mesh: the sessions, the order of the grasps, the files, and what is refused."""
+"""A plan for one mesh: the sessions, the order of the grasps, the files, and what is rejected."""
 
 import json
 

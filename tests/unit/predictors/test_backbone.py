@@ -53,7 +53,7 @@ def test_the_last_features_are_the_networks_own(name):
 
 
 def test_features_show_a_shift_of_the_colours_that_the_last_ones_hide(monkeypatch, tmp_path):
-    """What a linear probe finds in pictures it has not seen: objects of any brightness."""
+    """What a linear probe finds in images it has not seen: objects of any brightness."""
     monkeypatch.delenv(WEIGHTS_VARIABLE, raising=False)
     monkeypatch.setenv("TORCH_HOME", str(tmp_path))
     backbone = load_backbone(find_weights(timeout_s=0), 64)

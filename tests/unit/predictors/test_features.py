@@ -1,4 +1,4 @@
-"""Encodings of the task and features of pictures."""
+"""Encodings of the task and features of images."""
 
 import io
 

@@ -1,4 +1,4 @@
-"""Folds over pictures."""
+"""Folds over images."""
 
 import numpy as np
 import pandas as pd

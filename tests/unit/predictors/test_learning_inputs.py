@@ -1,4 +1,4 @@
-"""The record of the backbone, and inputs from features or pictures."""
+"""The record of the backbone, and inputs from features or images."""
 
 import io
 

@@ -1,4 +1,4 @@
-"""Cameras of the contact pictures; no OpenGL is needed."""
+"""Cameras of the contact images; no OpenGL is needed."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""What users hand in: good pictures whatever their format, and one clear line for the others."""
+"""What users hand in: good images whatever their format, and one clear line for the others."""
 
 import numpy as np
 import pytest
@@ -50,7 +50,7 @@ def test_padding_has_the_colour_of_the_border():
 
 
 def _bad(folder):
-    """Name to content of files that are no usable picture."""
+    """Name to content of files that are no usable image."""
     Image.fromarray(NOISE).save(folder / "whole.png")
     whole = (folder / "whole.png").read_bytes()
     (folder / "text.png").write_text("not a picture")

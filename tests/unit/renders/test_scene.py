@@ -100,4 +100,4 @@ def test_the_shadow_lies_below_the_object_and_not_beside_it():
     assert light[0, 0] == pytest.approx(1.0, abs=0.01)
     row, column = np.unravel_index(light.argmin(), light.shape)
     assert abs(column - 32) <= 6
-    assert row > 32  # below the middle of the picture, where the ball stands
+    assert row > 32  # below the middle of the image, where the ball stands

@@ -1,4 +1,4 @@
-"""Tables of results beside the paper and the ceilings."""
+"""Tables of results next to the paper and the ceilings."""
 
 import re
 

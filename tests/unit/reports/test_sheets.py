@@ -1,4 +1,4 @@
-"""Sheets have room for every picture, and text that fits."""
+"""Sheets have room for every image, and text that fits."""
 
 import numpy as np
 

@@ -1,4 +1,4 @@
-"""One run at a time, nothing half written, no cache of links."""
+"""One run at a time, nothing half-written, no cache of links."""
 
 import errno
 import os
