@@ -18,8 +18,8 @@ def prepare_backbone(record: str | Path, chosen: str, timeout_s: float, input_px
     weights = find_weights(timeout_s)
     if chosen != "default" and not weights.sha256.startswith(chosen):
         message = (
-            f"is not set: the results here were made with weights {chosen}, but found are "
-            f"{weights.name}; name that file, or start again to use what is found"
+            f"is not set: the results here were made with weights {chosen}, but "
+            f"{weights.name} was found; name that file, or start again to use what was found"
         )
         raise InputError(WEIGHTS_VARIABLE, "", message)
     load_backbone(weights, input_px)
