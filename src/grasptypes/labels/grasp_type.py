@@ -89,7 +89,7 @@ TREE = Question(
 
 
 def ways(node: Question | str = TREE) -> dict[str, list[tuple[Question, bool]]]:
-    """The questions on the way to each type from left to right, and whether it lies above."""
+    """The questions on the path to each type, left to right, and whether the path is above."""
     if isinstance(node, str):
         return {node: []}
     return {

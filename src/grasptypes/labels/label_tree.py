@@ -79,7 +79,7 @@ class _Drawing:
     thresholds: Sequence[float]
 
     def question(self, question: Question, depth: float) -> float:
-        """Draw a question and all below it; returns where it stands from left to right."""
+        """Draw a question and all below it; returns its horizontal position."""
         names = ways(question)
         place, bottom = float(np.mean([self.places[name] for name in names])), -depth - HALF
         limit = question.amount(self.thresholds[question.measure])

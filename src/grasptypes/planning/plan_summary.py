@@ -52,8 +52,8 @@ def report(summary: Mapping[str, Any]) -> str:
     types, held = ", ".join(summary["wanted_types"]), summary["valid_of_wanted_type"]
     lines = [
         f"{summary['object']} for {summary['task']}: {types} ({chosen})",
-        f"{summary['valid']} of {summary['sessions']} grasps hold, {held} of a wanted type; "
-        f"{summary['tries']} tries",
+        f"{summary['valid']} of {summary['sessions']} grasps are valid, "
+        f"{held} of a requested type; {summary['tries']} tries",
         "",
         f"rank  {'grasp type':18}{'energy':>8}  session  tries  reason",
     ]
@@ -64,4 +64,4 @@ def report(summary: Mapping[str, Any]) -> str:
             f"{grasp['rank']:4}  {kind:18}{grasp['energy']:8.3f}  {grasp['session']:7}  "
             f"{grasp['tries']:5}  {grasp['reason']}"
         )
-    return "\n".join([*lines, "", "* of a wanted type"]) + "\n"
+    return "\n".join([*lines, "", "* requested type"]) + "\n"

@@ -150,10 +150,10 @@ class Planner:
         contacts = plan_contacts(drawn, contact_map, grips_of(request.types), source)
         if left_out := settings.sessions - len(contacts.numbers):
             self.tell(
-                f"left out {left_out} of {settings.sessions} ways of holding: "
+                f"skipped {left_out} of {settings.sessions} ways of holding: "
                 "no place has opposing sides for them"
             )
-        self.tell(f"searching for {', '.join(request.types)} of {object.name} for {task}")
+        self.tell(f"searching for {', '.join(request.types)} grasps of {object.name} for {task}")
         context = PlanningContext(object, task, MESH_WORD, self.folder / URDF, self.params)
         attempts, ranking = plan_sessions(context, contacts, request.types, self.jobs, self.tell)
         used = contact_map.path.name if contact_map else None

@@ -185,7 +185,7 @@ def test_the_plan_without_a_session_keeps_the_others(
 ):
     unlucky.add(2)
     plan(checkout, mesh, tmp_path / "out", "--task", "use", "--type", "power_sphere")
-    assert f"left out 1 of {SESSIONS} ways of holding" in capsys.readouterr().err
+    assert f"skipped 1 of {SESSIONS} ways of holding" in capsys.readouterr().err
     all_tries, tries = (pd.read_csv(p / "attempts.csv") for p in (planned, tmp_path / "out"))
     kept = all_tries[all_tries.session != 2].reset_index(drop=True)
     pd.testing.assert_frame_equal(tries, kept)
