@@ -53,8 +53,8 @@ def test_a_path_to_nothing_is_refused(tmp_path):
     ("named", "said"),
     [
         ("{host}/content#sha256=" + "0" * 64, f"has the SHA-256 {SHA256} instead of 0000"),
-        ("http://127.0.0.1:9/t.csv#sha256=" + SHA256, "cannot be reached.*name its path instead"),
-        ("table.csv", "names no URL"),
+        ("http://127.0.0.1:9/t.csv#sha256=" + SHA256, "cannot be reached.*set its path instead"),
+        ("table.csv", "is not a URL"),
     ],
 )
 def test_what_cannot_be_fetched_is_one_line_and_leaves_nothing(host, tmp_path, named, said):
