@@ -7,14 +7,16 @@ from __future__ import annotations
 
 import argparse
 import json
-from collections.abc import Sequence
+import sys
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 from grasptypes.commands.settings import add_folder, check_target, printable
 from grasptypes.errors import InputError
 from grasptypes.objects.units import UNITS_M
-from grasptypes.renders.photos import check_photo, photo_files, read_photo
+from grasptypes.renders.photos import check_photo, photo_files, read_background, read_photo
+from grasptypes.settings.commands import PhotoLimits
 from grasptypes.settings.params import checkout_params
 
 # A figure with more rows is too tall for image viewers.
@@ -27,6 +29,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     shown.add_argument("--image", type=Path, help="an image, or a folder of images")
     shown.add_argument(
         "--object", type=Path, help="a mesh (STL, OBJ, PLY, GLB), rendered from several views"
+    )
+    parser.add_argument(
+        "--background", metavar="COLOUR", help="colour behind transparent pixels, e.g. white"
     )
     parser.add_argument("--unit", choices=UNITS_M, help="unit of the mesh (default: m)")
     parser.add_argument("--task", help="task, e.g. use")
@@ -49,23 +54,22 @@ def run(args: argparse.Namespace) -> str:
     limits = params.predict.photos
     if args.image and args.unit:
         raise InputError("--unit", args.unit, "is for meshes (--object): an image has no unit")
-    files = photo_files(args.image) if args.image else []
+    background = _background(args)
+    files, skipped = photo_files(args.image) if args.image else ([], {})
     if args.picture:
         check_target(args.picture, ".png")
         _check_apart(args.picture, args.image, files)
         if len(files) > MAX_ROWS:
             raise InputError(args.image, "", f"--picture shows at most {MAX_ROWS} images")
-    # Bad images are reported before torch takes seconds to load.
-    if len(files) == 1:
-        read_photo(files[0], limits)
-    for file in files:
-        check_photo(file, limits)
+    _check_images(files, skipped, limits, background)
 
     from grasptypes.predictors.prediction import Predictor, report
 
     predictor = Predictor.load(args.folder, labels=args.labels, model=args.model, params=params)
     task = predictor.check_task(args.task)
-    shown: dict[str, Any] = {printable(file.name): file for file in files}
+    shown: dict[str, Any] = {
+        printable(file.name): read_photo(file, limits, background) for file in files
+    }
     if args.object:
         from grasptypes.objects.loading import own_object
 
@@ -81,6 +85,30 @@ def run(args: argparse.Namespace) -> str:
     if args.json:
         return json.dumps(predictor.describe(answers, task), indent=2) + "\n"
     return report(answers, predictor.card, task)
+
+
+def _background(args: argparse.Namespace) -> tuple[int, int, int] | None:
+    if args.background is None:
+        return None
+    if args.object:
+        message = "is for images (--image): a mesh has no transparent pixels"
+        raise InputError("--background", args.background, message)
+    return read_background(args.background)
+
+
+def _check_images(
+    files: Sequence[Path],
+    skipped: Mapping[Path, str],
+    limits: PhotoLimits,
+    background: tuple[int, int, int] | None,
+) -> None:
+    """Report bad images before torch takes seconds to load, then what is skipped."""
+    if len(files) == 1:
+        read_photo(files[0], limits, background)
+    for file in files:
+        check_photo(file, limits, background)
+    for file, reason in skipped.items():
+        sys.stderr.write(f"skipped {printable(file.name)}: {reason}\n")
 
 
 def _check_apart(target: Path, image: Path | None, files: Sequence[Path]) -> None:

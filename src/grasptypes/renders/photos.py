@@ -10,20 +10,22 @@ from contextlib import contextmanager
 from pathlib import Path
 
 import numpy as np
-from PIL import Image, ImageOps, UnidentifiedImageError
+from PIL import Image, ImageColor, ImageOps, UnidentifiedImageError
 
 from grasptypes.errors import InputError
 from grasptypes.settings.commands import PhotoLimits
 
 # No formats that run another program (EPS) or are not for single screen images.
 FORMATS = ("PNG", "JPEG", "WEBP", "BMP", "TIFF", "GIF", "PPM")
-SUFFIXES = (".png", ".jpg", ".jpeg", ".webp", ".bmp", ".tif", ".tiff", ".gif", ".ppm")
-_MODES = ("1", "L", "P", "RGB", "CMYK", "YCbCr")
+_MODES = ("1", "L", "LA", "P", "PA", "RGB", "RGBA", "CMYK", "YCbCr")
 _BROKEN = (OSError, SyntaxError, ValueError, EOFError, IndexError, struct.error, zlib.error)
 
 
-def photo_files(path: str | Path) -> list[Path]:
-    """The file, or the images in a folder sorted by name, without hidden files.
+def photo_files(path: str | Path) -> tuple[list[Path], dict[Path, str]]:
+    """The file, or the images in a folder, sorted by name.
+
+    Returns:
+        The images, and the folder's other entries with the reason why each is skipped.
 
     Raises:
         InputError: there is no image.
@@ -32,37 +34,75 @@ def photo_files(path: str | Path) -> list[Path]:
     if not path.exists():
         raise InputError(path, "", "no such file or folder")
     if path.is_file():
-        return [path]
-    files = sorted(
-        file
-        for file in path.iterdir()
-        if file.suffix.lower() in SUFFIXES and not file.name.startswith(".") and file.is_file()
-    )
+        return [path], {}
+    suffixes = {end for end, kind in Image.registered_extensions().items() if kind in FORMATS}
+    files, skipped = [], {}
+    for entry in sorted(path.iterdir()):
+        if entry.name.startswith("."):
+            skipped[entry] = "a hidden file"
+        elif not entry.is_file():
+            skipped[entry] = "not a file"
+        elif entry.suffix.lower() not in suffixes:
+            skipped[entry] = "not named like an image"
+        else:
+            files.append(entry)
     if not files:
-        raise InputError(path, "", f"contains no image ({', '.join(SUFFIXES)})")
-    return files
+        raise InputError(path, "", f"contains no image ({', '.join(sorted(suffixes))})")
+    return files, skipped
 
 
-def check_photo(path: str | Path, limits: PhotoLimits) -> None:
-    """Check the header of an image only; raises InputError like :func:`read_photo`."""
-    with _opened(path, limits):
-        pass
+def read_background(colour: str) -> tuple[int, int, int]:
+    """The RGB values of a colour's name or code, e.g. white or #ff8800.
+
+    Raises:
+        InputError: no such opaque colour.
+    """
+    try:
+        values = ImageColor.getrgb(colour)
+    except ValueError as error:
+        message = "is no colour: use a name (white) or a code (#ffffff)"
+        raise InputError("--background", colour, message) from error
+    if len(values) != 3:
+        raise InputError("--background", colour, "has to be opaque")
+    return values
 
 
-def read_photo(path: str | Path, limits: PhotoLimits) -> np.ndarray:
+def check_photo(
+    path: str | Path, limits: PhotoLimits, background: tuple[int, int, int] | None = None
+) -> None:
+    """Check an image without decoding more than its alpha channel.
+
+    Raises:
+        InputError: see :func:`read_photo`.
+    """
+    with _opened(path, limits) as opened:
+        _check_opaque(path, opened, background)
+
+
+def read_photo(
+    path: str | Path, limits: PhotoLimits, background: tuple[int, int, int] | None = None
+) -> np.ndarray:
     """Read an image as (S, S, 3) uint8, turned upright and padded to a square.
 
     The predictors were trained on square images, and squeezing an image would change the object's
     proportions. The padding has the median colour of the border.
 
+    Args:
+        background: RGB colour behind transparent pixels.
+
     Raises:
         InputError: the file is not an image, is damaged, too small or too large, contains several
-            images, or has an alpha channel (its background is undefined).
+            images, or has transparent pixels and no background is given.
     """
     with _opened(path, limits) as opened:
         opened.draft("RGB", (limits.reduce_px, limits.reduce_px))
         opened.load()
-        upright = ImageOps.exif_transpose(opened).convert("RGB")
+        _check_opaque(path, opened, background)
+        upright = ImageOps.exif_transpose(opened)
+        if background is not None and upright.has_transparency_data:
+            behind = Image.new("RGBA", upright.size, background)
+            upright = Image.alpha_composite(behind, upright.convert("RGBA"))
+        upright = upright.convert("RGB")
     upright.thumbnail((limits.reduce_px, limits.reduce_px))
     return padded(np.asarray(upright))
 
@@ -112,14 +152,19 @@ def _check(path: str | Path, picture: Image.Image, limits: PhotoLimits) -> None:
     if picture.format != "MPO" and getattr(picture, "is_animated", False):
         message = "contains several images (an animation or pages): save the one you mean"
         raise InputError(path, "", message)
-    if picture.has_transparency_data:
-        message = (
-            "has an alpha channel, so its background is undefined: save it on a background "
-            "(e.g. magick in.png -background white -alpha remove out.png)"
-        )
-        raise InputError(path, "", message)
     if picture.mode not in _MODES:
         message = f"has mode {picture.mode}; allowed: 8 bits per channel, grey or colour"
+        raise InputError(path, "", message)
+
+
+def _check_opaque(
+    path: str | Path, picture: Image.Image, background: tuple[int, int, int] | None
+) -> None:
+    """Reject transparent pixels whose background is unknown. An alpha of 255 hides nothing."""
+    if background is not None or not picture.has_transparency_data:
+        return
+    if np.asarray(picture.convert("RGBA").getchannel("A")).min() < 255:
+        message = "has transparent pixels: name the colour behind them, e.g. --background white"
         raise InputError(path, "", message)
 
 

@@ -5,10 +5,19 @@ import pytest
 from PIL import Image
 
 from grasptypes.errors import InputError
-from grasptypes.renders.photos import PhotoLimits, check_photo, padded, photo_files, read_photo
+from grasptypes.renders.photos import (
+    PhotoLimits,
+    check_photo,
+    padded,
+    photo_files,
+    read_background,
+    read_photo,
+)
 
 LIMITS = PhotoLimits(min_px=32, max_pixels=1_000_000, reduce_px=128)
 NOISE = np.random.default_rng(0).integers(0, 256, (64, 64, 3), dtype=np.uint8)
+ALPHA = np.where(np.arange(64) < 32, 255, 0) * np.ones((64, 1))  # the right half is transparent
+TRANSPARENT = np.dstack([NOISE, ALPHA.astype(np.uint8)])
 
 
 @pytest.mark.parametrize("mode", ["RGB", "L", "P", "1", "CMYK"])
@@ -61,8 +70,9 @@ def _bad(folder):
     Image.fromarray(NOISE).save(folder / "whole.jpg")
     (folder / "truncated.jpg").write_bytes((folder / "whole.jpg").read_bytes()[:900])
     Image.fromarray(NOISE[:1, :1]).save(folder / "dot.png")
-    Image.fromarray(NOISE).convert("RGBA").save(folder / "alpha.png")
-    Image.fromarray(NOISE).convert("L").save(folder / "key.png", transparency=0)
+    Image.fromarray(TRANSPARENT).save(folder / "alpha.png")
+    grey = Image.fromarray(NOISE).convert("L")
+    grey.save(folder / "key.png", transparency=grey.getpixel((0, 0)))
     Image.fromarray(NOISE[..., 0].astype(np.uint16) * 256).save(folder / "deep.png")
     Image.new("1", (20_000, 10_000)).save(folder / "huge.png")
     (folder / "program.eps").write_text("%!PS-Adobe-3.0 EPSF-3.0\n%%BoundingBox: 0 0 64 64\n")
@@ -82,8 +92,8 @@ def _bad(folder):
         ("damaged.png", "cannot be read as an image"),
         ("truncated.jpg", "cannot be read as an image"),
         ("dot.png", "is 1 x 1 pixels; each side needs at least 32"),
-        ("alpha.png", "has an alpha channel"),
-        ("key.png", "has an alpha channel"),
+        ("alpha.png", "has transparent pixels"),
+        ("key.png", "has transparent pixels"),
         ("deep.png", "8 bits per channel"),
         ("huge.png", "limit of 1 million pixels"),
         ("program.eps", "not an image"),
@@ -104,6 +114,33 @@ def test_bad_pictures_are_refused_in_one_line(tmp_path, name, expected):
     assert "\n" not in line
 
 
+@pytest.mark.parametrize("mode", ["RGBA", "LA"])
+def test_an_alpha_channel_that_hides_nothing_is_ignored(tmp_path, mode):
+    grey = Image.fromarray(NOISE).convert("L")
+    grey.convert(mode).save(tmp_path / "a.png")
+    grey.save(tmp_path / "b.png")
+    check_photo(tmp_path / "a.png", LIMITS)
+    same = (read_photo(tmp_path / name, LIMITS) for name in ("a.png", "b.png"))
+    assert np.array_equal(*same)
+
+
+def test_transparent_pixels_show_the_background(tmp_path):
+    _bad(tmp_path)
+    with pytest.raises(InputError, match="--background white"):
+        check_photo(tmp_path / "alpha.png", LIMITS)
+    check_photo(tmp_path / "alpha.png", LIMITS, (255, 0, 0))
+    photo = read_photo(tmp_path / "alpha.png", LIMITS, (255, 0, 0))
+    assert (photo[:, :32] == NOISE[:, :32]).all()
+    assert (photo[:, 32:] == (255, 0, 0)).all()
+
+
+def test_a_background_is_an_opaque_colour():
+    assert read_background("white") == (255, 255, 255)
+    for colour in ("whyte", "#ffffff00"):
+        with pytest.raises(InputError, match="--background"):
+            read_background(colour)
+
+
 def test_a_header_is_looked_at_alone(tmp_path):
     _bad(tmp_path)
     check_photo(tmp_path / "truncated.png", LIMITS)
@@ -120,11 +157,20 @@ def test_of_a_phone_s_several_pictures_the_first_is_taken(tmp_path):
 
 
 def test_a_folder_gives_its_pictures_by_name(tmp_path):
-    for name in ("b.PNG", "a.jpg", "notes.txt", ".c.png", "._a.jpg"):
+    names = ("a.jpg", "b.PNG", "e.jfif", "f.pgm", "g.JPE")
+    for name in (*names, "notes.txt", ".c.png", "._a.jpg"):
         (tmp_path / name).touch()
     (tmp_path / "d.png").mkdir()
-    assert [file.name for file in photo_files(tmp_path)] == ["a.jpg", "b.PNG"]
-    assert photo_files(tmp_path / "a.jpg") == [tmp_path / "a.jpg"]
+    files, skipped = photo_files(tmp_path)
+    assert {file.name for file in files} == set(names)
+    assert files == sorted(files)
+    assert {file.name: reason for file, reason in skipped.items()} == {
+        "notes.txt": "not named like an image",
+        ".c.png": "a hidden file",
+        "._a.jpg": "a hidden file",
+        "d.png": "not a file",
+    }
+    assert photo_files(tmp_path / "a.jpg") == ([tmp_path / "a.jpg"], {})
 
 
 def test_nothing_there_is_said(tmp_path):
