@@ -79,7 +79,7 @@ def test_benchmarks_tell_the_time_of_every_rule_or_what_they_lack(
         assert name in output
     output = fresh.module("benchmarks", "records", "idle", "synthesis", "renders", "features")
     assert output.count("left out") == 5
-    assert "data/renders is missing; snakemake renders makes it" in output
+    assert "data/renders is missing; make it with: snakemake renders" in output
 
 
 def test_variants_go_beside_their_objects(changed: Repository) -> None:
