@@ -16,7 +16,7 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
-from grasptypes.files import write_text
+from grasptypes.files import file_sha256, write_text
 
 _SOURCE = Path(__file__).resolve().parents[1]
 _PACKAGE = Path(__file__).resolve().parent.name
@@ -101,8 +101,7 @@ class CodeHash:
 
 
 def _sha256(path: Path) -> str:
-    with path.open("rb") as file:
-        return hashlib.file_digest(file, "sha256").hexdigest()[:16]
+    return file_sha256(path)[:16]
 
 
 def _read(path: Path) -> tuple[str, list[str]]:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
 import http.client
 import os
 import queue
@@ -13,7 +12,7 @@ import urllib.request
 from pathlib import Path
 from typing import IO
 
-from grasptypes.files import TEMPORARY
+from grasptypes.files import TEMPORARY, file_sha256
 
 _FAILURES = (OSError, http.client.HTTPException, ValueError)
 
@@ -47,12 +46,6 @@ def download(url: str, path: str | Path, sha256: str, timeout_s: float) -> None:
             os.replace(part, path)
         finally:
             Path(part).unlink(missing_ok=True)
-
-
-def file_sha256(path: str | Path) -> str:
-    """SHA-256 of a file, 64 hex digits."""
-    with open(path, "rb") as file:
-        return hashlib.file_digest(file, "sha256").hexdigest()
 
 
 def _opened(url: str, timeout_s: float) -> IO[bytes]:

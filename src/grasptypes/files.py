@@ -1,7 +1,8 @@
-"""Atomic writing of files, with the same bytes for the same content."""
+"""Atomic writing of files, with the same bytes for the same content, and their checksums."""
 
 from __future__ import annotations
 
+import hashlib
 import io
 import json
 import os
@@ -21,6 +22,12 @@ ZIP_EPOCH = (1980, 1, 1, 0, 0, 0)
 
 # Suffix of files that are still being written.
 TEMPORARY = ".tmp"
+
+
+def file_sha256(path: str | Path) -> str:
+    """SHA-256 of a file, 64 hex digits."""
+    with open(path, "rb") as file:
+        return hashlib.file_digest(file, "sha256").hexdigest()
 
 
 def staging_name(name: str) -> str:

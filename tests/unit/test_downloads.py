@@ -6,7 +6,8 @@ import time
 import pytest
 from hosts import CONTENT
 
-from grasptypes.downloads import DownloadError, download, file_sha256
+from grasptypes.downloads import DownloadError, download
+from grasptypes.files import file_sha256
 
 SHA256 = hashlib.sha256(CONTENT).hexdigest()
 

@@ -67,20 +67,21 @@ def run(args: argparse.Namespace) -> str:
 
     predictor = Predictor.load(args.folder, labels=args.labels, model=args.model, params=params)
     task = predictor.check_task(args.task)
-    shown: dict[str, Any] = {
-        printable(file.name): read_photo(file, limits, background) for file in files
-    }
+    shown: dict[str, Any] = {printable(file.name): file for file in files}
     if args.object:
         from grasptypes.objects.loading import own_object
 
         views = predictor.mesh_images(own_object(args.object, args.unit or "m"))
         shown = {f"{printable(args.object.name)}, mean of {len(views)} views": views}
-    answers = [predictor.predict(images, task, name=name) for name, images in shown.items()]
+    answers = [
+        predictor.predict(images, task, name=name, background=background)
+        for name, images in shown.items()
+    ]
     if args.picture:
         from grasptypes.labels.label_pictures import save_figure
         from grasptypes.predictors.prediction_pictures import draw_answers, montage
 
-        tiles = [montage(predictor.images(images)) for images in shown.values()]
+        tiles = [montage(predictor.images(images, background)) for images in shown.values()]
         save_figure(draw_answers(tiles, answers, predictor.card, task), args.picture)
     if args.json:
         return json.dumps(predictor.describe(answers, task), indent=2) + "\n"

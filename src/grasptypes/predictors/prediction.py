@@ -139,6 +139,7 @@ class Predictor:
         task: str | None = None,
         *,
         name: str = "",
+        background: tuple[int, int, int] | None = None,
     ) -> Answer:
         """Predict grasp types.
 
@@ -147,19 +148,24 @@ class Predictor:
                 (H, W, 3) or (N, H, W, 3) uint8 of one object, whose predictions are averaged.
             task: the task; not needed for models that do not see it.
             name: name of the answer.
+            background: RGB colour behind a photo's transparent pixels.
 
         Raises:
             InputError: an unknown task, or an unusable photo.
         """
-        logits = self.model.logits(self.images(shown), self.check_task(task))
+        logits = self.model.logits(self.images(shown, background), self.check_task(task))
         return Answer.of_logits(name, self.card.types, logits)
 
-    def images(self, shown: ObjectGeometry | np.ndarray | str | Path) -> np.ndarray:
-        """Images that the model sees: (N, H, W, 3) uint8."""
+    def images(
+        self,
+        shown: ObjectGeometry | np.ndarray | str | Path,
+        background: tuple[int, int, int] | None = None,
+    ) -> np.ndarray:
+        """Images that the model sees: (N, H, W, 3) uint8; see `predict`."""
         if isinstance(shown, ObjectGeometry):
             return views(shown.visual, self.params.renders, self.params.predict.views)
         if isinstance(shown, str | Path):
-            return read_photo(shown, self.params.predict.photos)[None]
+            return read_photo(shown, self.params.predict.photos, background)[None]
         return shown[None] if shown.ndim == 3 else shown
 
     def mesh_images(self, own: OwnObject) -> np.ndarray:

@@ -8,8 +8,9 @@ import os
 from dataclasses import dataclass
 from pathlib import Path
 
-from grasptypes.downloads import DownloadError, download, file_sha256
+from grasptypes.downloads import DownloadError, download
 from grasptypes.errors import InputError
+from grasptypes.files import file_sha256
 
 LOGGER = logging.getLogger("grasptypes")
 WEIGHTS_VARIABLE = "GRASPTYPES_BACKBONE_WEIGHTS"

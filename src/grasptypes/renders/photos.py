@@ -70,7 +70,7 @@ def read_background(colour: str) -> tuple[int, int, int]:
 def check_photo(
     path: str | Path, limits: PhotoLimits, background: tuple[int, int, int] | None = None
 ) -> None:
-    """Check an image without decoding more than its alpha channel.
+    """Check the header of an image, and its pixels if they may be transparent.
 
     Raises:
         InputError: see :func:`read_photo`.

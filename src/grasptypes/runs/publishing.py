@@ -13,8 +13,8 @@ from typing import Any
 
 import pandas as pd
 
-from grasptypes.downloads import file_sha256
 from grasptypes.errors import InputError
+from grasptypes.files import file_sha256
 from grasptypes.predictors.features import read_pictures
 from grasptypes.predictors.learning_inputs import read_backbone_record, recorded_weights
 from grasptypes.predictors.metrics import METRICS

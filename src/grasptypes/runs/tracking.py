@@ -25,8 +25,8 @@ from mlflow.types import ColSpec, Schema, TensorSpec
 from sqlalchemy.exc import SQLAlchemyError
 
 import grasptypes.errors
-from grasptypes.downloads import file_sha256
 from grasptypes.errors import InputError
+from grasptypes.files import file_sha256
 from grasptypes.predictors.predictor_files import read_card
 from grasptypes.settings.commands import TrackingSettings
 
