@@ -11,6 +11,7 @@ from grasptypes.start_up import check_start
 from grasptypes.content_hash import CodeHash, FileHash
 
 PUBLISHED_COUNTS = "assets/published_labels.csv"
+DIMENSIONS = f"{workflow.basedir}/src/grasptypes/objects/dimensions.yaml"
 
 try:
     PARAMS = Params.check(config)
@@ -62,14 +63,17 @@ def object_settings(wildcards):
     objects = config["objects"]
     own = dict(objects["own"].get(wildcards.object, {}))
     own.pop("contact_maps", None)
-    how = {"own": own, "import": objects["import"]} if own else {"scale": objects["scale"]}
-    return {"resolution": objects["resolution"], **how}
+    if own:
+        return {"resolution": objects["resolution"], "own": own, "import": objects["import"]}
+    how = {key: objects[key] for key in ("resolution", "scale")}
+    return how | {"dimensions": file_hash(DIMENSIONS)}
 
 
 def variant_settings():
     """What a variant is made with."""
     kept = ("scale", "variation", "resolution")
-    return {key: config["objects"][key] for key in kept}
+    how = {key: config["objects"][key] for key in kept}
+    return how | {"dimensions": file_hash(DIMENSIONS)}
 
 
 def variant_views():

@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from grasptypes.jobs import job
-from grasptypes.objects.catalogue import OBJECTS
+from grasptypes.objects.catalogue import build
 from grasptypes.objects.mesh_import import import_model
 from grasptypes.objects.parts import ImportedModel
 from grasptypes.objects.preparation import prepare
@@ -16,7 +16,7 @@ if __name__ == "__main__":
             limits = ImportLimits.check(settings["import"])
             found = import_model(OwnObject.check(settings["own"]), limits)
         else:
-            found = ImportedModel(OBJECTS[name](), settings["scale"])
+            found = ImportedModel(build(name), settings["scale"])
         folder = Path(snakemake.output.properties).parent
         prepare(name, found, Resolution.check(settings["resolution"]), folder)
         for repair in found.repairs:

@@ -1,12 +1,10 @@
 """Toothbrush and toothpaste, in ContactDB's frame and size (metres)."""
 
-from dataclasses import dataclass
-
 import numpy as np
 from manifold3d import Manifold
 
 from grasptypes.objects import lofts, sections, solids
-from grasptypes.objects.parts import Material, ObjectModel, Part
+from grasptypes.objects.parts import Material, ObjectModel, Part, Size
 
 TURQUOISE_PLASTIC = Material((0.05, 0.58, 0.66, 1.0), roughness=0.4)
 NAVY_RUBBER = Material((0.07, 0.13, 0.38, 1.0), roughness=0.8)
@@ -16,47 +14,7 @@ RED_PRINT = Material((0.80, 0.06, 0.10, 1.0), roughness=0.35)
 BLUE_PRINT = Material((0.07, 0.22, 0.62, 1.0), roughness=0.35)
 
 
-@dataclass(frozen=True)
-class Toothbrush:
-    """Toothbrush: handle towards +x, head at -x with the bristles pointing to -y.
-
-    Attributes:
-        stations: rows of x, y and z of the centre line, radius.
-    """
-
-    stations: tuple[tuple[float, float, float, float], ...] = (
-        (-0.0724, 0.0014, 0.0008, 0.0010),
-        (-0.0718, 0.0014, 0.0008, 0.0030),
-        (-0.0700, 0.0013, 0.0008, 0.0049),
-        (-0.0655, 0.0014, 0.0007, 0.0059),
-        (-0.0410, 0.0043, 0.0005, 0.0058),
-        (-0.0300, 0.0028, 0.0003, 0.0058),
-        (-0.0200, -0.0016, 0.0002, 0.0058),
-        (-0.0080, -0.0049, 0.0001, 0.0059),
-        (0.0400, 0.0009, -0.0005, 0.0054),
-        (0.0700, 0.0047, -0.0008, 0.0047),
-        (0.0880, 0.0069, -0.0010, 0.0034),
-        (0.0910, 0.0072, -0.0010, 0.0026),
-        (0.0925, 0.0074, -0.0010, 0.0012),
-    )
-    head_end_x_m: float = -0.0390
-    neck_end_x_m: float = -0.0100
-    bristles_x_m: float = -0.0527
-    bristles_length_m: float = 0.0255
-    bristles_width_m: float = 0.0088
-    bristles_start_y_m: float = 0.0020
-    bristles_end_y_m: float = -0.0124
-    bristles_tilt_deg: float = 7.5
-    tuft_pitch_m: float = 0.0026
-    tuft_gap_m: float = 0.0006
-    tuft_depth_m: float = 0.0075
-    pad_start_x_m: float = 0.004
-    pad_end_x_m: float = 0.046
-    pad_width_m: float = 0.0066
-    pad_height_m: float = 0.0003
-
-
-def toothbrush(size: Toothbrush = Toothbrush()) -> ObjectModel:
+def toothbrush(size: Size) -> ObjectModel:
     """Build the toothbrush with parts handle, grip_pad, neck, head and bristles."""
     stem = _toothbrush_stem(size)
     head, neck, handle = solids.slabs(stem, [size.head_end_x_m, size.neck_end_x_m], "x")
@@ -70,14 +28,14 @@ def toothbrush(size: Toothbrush = Toothbrush()) -> ObjectModel:
     return ObjectModel(parts, density_kg_m3=1000.0)
 
 
-def _toothbrush_stem(size: Toothbrush, swell_m: float = 0.0) -> Manifold:
+def _toothbrush_stem(size: Size, swell_m: float = 0.0) -> Manifold:
     stations, values = lofts.interpolate_stations(size.stations, count=90)
     ring = sections.circle(1.0, 32)
     outlines = [ring * (radius + swell_m) + [y, z] for y, z, radius in values]
     return lofts.loft_along("x", stations, outlines)
 
 
-def _toothbrush_pad(size: Toothbrush) -> Manifold:
+def _toothbrush_pad(size: Size) -> Manifold:
     """Return the thumb pad on the handle's back, opposite the bristles."""
     length_m = size.pad_end_x_m - size.pad_start_x_m
     outline = sections.rounded_rectangle(length_m, size.pad_width_m, 0.49 * size.pad_width_m)
@@ -88,7 +46,7 @@ def _toothbrush_pad(size: Toothbrush) -> Manifold:
     return _toothbrush_stem(size, size.pad_height_m) ^ stamp.translate((middle_x_m, *middle))
 
 
-def _toothbrush_bristles(size: Toothbrush) -> Manifold:
+def _toothbrush_bristles(size: Size) -> Manifold:
     """Return the bristle block, its free end slit into tufts."""
     height_m = size.bristles_start_y_m - size.bristles_end_y_m
     outline = lofts.even_superellipse(
@@ -110,39 +68,7 @@ def _toothbrush_bristles(size: Toothbrush) -> Manifold:
     return tufts.translate((size.bristles_x_m, middle_y_m, size.stations[3][2]))
 
 
-@dataclass(frozen=True)
-class Toothpaste:
-    """Tube: cap at +x, flat fold at -x, widest across y at the fold.
-
-    Attributes:
-        stations: rows of x, half width along y, half thickness along z.
-    """
-
-    stations: tuple[tuple[float, float, float], ...] = (
-        (-0.0900, 0.0263, 0.0009),
-        (-0.0780, 0.0263, 0.0063),
-        (-0.0390, 0.0241, 0.0120),
-        (0.0000, 0.0222, 0.0147),
-        (0.0400, 0.0204, 0.0172),
-        (0.0747, 0.0191, 0.0190),
-    )
-    fold_x_m: float = -0.0983
-    fold_thickness_m: float = 0.0017
-    shoulder_end_x_m: float = 0.0912
-    neck_radius_m: float = 0.0059
-    cap_start_x_m: float = 0.0928
-    cap_start_radius_m: float = 0.0066
-    cap_end_x_m: float = 0.1039
-    cap_end_radius_m: float = 0.0052
-    cap_ridges: int = 18
-    cap_ridge_m: float = 0.0003
-    label_start_x_m: float = -0.055
-    label_end_x_m: float = 0.052
-    stripe_width_m: float = 0.012
-    print_m: float = 0.00015
-
-
-def toothpaste(size: Toothpaste = Toothpaste()) -> ObjectModel:
+def toothpaste(size: Size) -> ObjectModel:
     """Build the tube with parts body, fold, label, stripe, shoulder and cap."""
     body = _tube_body(size)
     middle_m = (size.label_start_x_m + size.label_end_x_m) / 2
@@ -164,7 +90,7 @@ def toothpaste(size: Toothpaste = Toothpaste()) -> ObjectModel:
     return ObjectModel(parts, density_kg_m3=1100.0)
 
 
-def _tube_body(size: Toothpaste, swell_m: float = 0.0) -> Manifold:
+def _tube_body(size: Size, swell_m: float = 0.0) -> Manifold:
     stations, halves = lofts.interpolate_stations(size.stations, count=48)
     outlines = [sections.superellipse(y + swell_m, z + swell_m) for y, z in halves]
     return lofts.loft_along("x", stations, outlines)
@@ -174,7 +100,7 @@ def _between(solid: Manifold, low_m: float, high_m: float) -> Manifold:
     return solids.slabs(solid, [low_m, high_m], "x")[1]
 
 
-def _tube_shoulder(size: Toothpaste) -> Manifold:
+def _tube_shoulder(size: Size) -> Manifold:
     """Return the cone from the tube to the threaded neck."""
     start_m, _, radius_m = size.stations[-1]
     profile = [
@@ -188,7 +114,7 @@ def _tube_shoulder(size: Toothpaste) -> Manifold:
     return solids.revolve(profile, axis="x", segments=64)
 
 
-def _tube_cap(size: Toothpaste) -> Manifold:
+def _tube_cap(size: Size) -> Manifold:
     """Return the tapered cap with its ridges."""
     samples = 8 * size.cap_ridges
     angles = 2 * np.pi * np.arange(samples) / samples

@@ -1,13 +1,11 @@
 """Knife and scissors, in ContactDB's frame and size (metres)."""
 
-from dataclasses import dataclass
-
 import numpy as np
 from manifold3d import Manifold
 from numpy.typing import ArrayLike, NDArray
 
 from grasptypes.objects import lofts, sections, solids
-from grasptypes.objects.parts import Material, ObjectModel, Part
+from grasptypes.objects.parts import Material, ObjectModel, Part, Size
 
 BLADE_STEEL = Material((0.78, 0.80, 0.83, 1.0), metallic=0.3, roughness=0.25)
 BOLSTER_STEEL = Material((0.52, 0.54, 0.57, 1.0), metallic=0.3, roughness=0.35)
@@ -16,55 +14,7 @@ ORANGE_PLASTIC = Material((0.93, 0.36, 0.07, 1.0), roughness=0.45)
 BRASS = Material((0.78, 0.63, 0.30, 1.0), metallic=0.3, roughness=0.4)
 
 
-@dataclass(frozen=True)
-class Knife:
-    """Kitchen knife: blade along +y with the edge towards +x, flat in z.
-
-    Attributes:
-        handle_stations: rows of y, x of the back, x of the belly, half thickness.
-        blade_stations: rows of y, x of the spine, x of the edge, half thickness at the spine.
-        heel_curve: (x, y) spline points from the bolster to the heel of the edge.
-    """
-
-    handle_stations: tuple[tuple[float, float, float, float], ...] = (
-        (-0.1001, -0.0052, -0.0008, 0.0042),
-        (-0.0982, -0.0088, 0.0028, 0.0064),
-        (-0.0942, -0.0113, 0.0072, 0.0074),
-        (-0.0865, -0.0127, 0.0105, 0.0074),
-        (-0.0825, -0.0127, 0.0075, 0.0074),
-        (-0.0778, -0.0128, 0.0053, 0.0074),
-        (-0.0650, -0.0129, 0.0052, 0.0074),
-        (-0.0490, -0.0123, 0.0046, 0.0074),
-        (-0.0315, -0.0116, 0.0016, 0.0073),
-        (-0.0290, -0.0115, 0.0014, 0.0064),
-        (-0.0245, -0.0113, 0.0013, 0.0029),
-    )
-    handle_exponent: float = 3.6
-    bolster_y_m: float = -0.0315
-    rivet_radius_m: float = 0.0026
-    rivet_height_m: float = 0.0002
-    rivets_y_m: tuple[float, ...] = (-0.078, -0.060, -0.042)
-    blade_stations: tuple[tuple[float, float, float, float], ...] = (
-        (-0.0260, -0.0113, 0.0192, 0.0029),
-        (0.0350, -0.0113, 0.0191, 0.0024),
-        (0.0700, -0.0105, 0.0155, 0.0022),
-        (0.0900, -0.0083, 0.0108, 0.0019),
-        (0.1050, -0.0061, 0.0056, 0.0013),
-        (0.1219, -0.0033, -0.0030, 0.0002),
-    )
-    spine_bevel_m: float = 0.0011
-    edge_bevel_m: float = 0.0013
-    edge_thickness: float = 0.28
-    heel_curve: tuple[tuple[float, float], ...] = (
-        (0.0012, -0.0260),
-        (0.0016, -0.0214),
-        (0.0056, -0.0175),
-        (0.0115, -0.0147),
-        (0.0200, -0.0128),
-    )
-
-
-def knife(size: Knife = Knife()) -> ObjectModel:
+def knife(size: Size) -> ObjectModel:
     """Build the knife with parts handle, rivets, bolster and blade."""
     handle, bolster = solids.slabs(_knife_handle(size), [size.bolster_y_m], "y")
     parts = (
@@ -76,7 +26,7 @@ def knife(size: Knife = Knife()) -> ObjectModel:
     return ObjectModel(parts, density_kg_m3=7800.0)
 
 
-def _knife_handle(size: Knife) -> Manifold:
+def _knife_handle(size: Size) -> Manifold:
     stations, values = lofts.interpolate_stations(size.handle_stations, count=60)
     outlines = [
         lofts.even_superellipse((belly - back) / 2, thickness, size.handle_exponent)
@@ -86,7 +36,7 @@ def _knife_handle(size: Knife) -> Manifold:
     return lofts.loft_along("y", stations, outlines)
 
 
-def _knife_rivets(size: Knife) -> Manifold:
+def _knife_rivets(size: Size) -> Manifold:
     rows = np.asarray(size.handle_stations)
     half_m = rows[:, 3].max() + size.rivet_height_m
     rivet = solids.cylinder(size.rivet_radius_m, 2 * half_m)
@@ -96,7 +46,7 @@ def _knife_rivets(size: Knife) -> Manifold:
     )
 
 
-def _knife_blade(size: Knife) -> Manifold:
+def _knife_blade(size: Size) -> Manifold:
     stations, values = lofts.interpolate_stations(size.blade_stations, count=48)
     outlines = [_blade_section(size, *row) for row in values]
     blade = lofts.loft_along("y", stations, outlines)
@@ -106,9 +56,7 @@ def _knife_blade(size: Knife) -> Manifold:
     return blade - solids.extrude(waste, 0.02)
 
 
-def _blade_section(
-    size: Knife, spine_m: float, edge_m: float, half_m: float
-) -> NDArray[np.float64]:
+def _blade_section(size: Size, spine_m: float, edge_m: float, half_m: float) -> NDArray[np.float64]:
     """Trace a wedge (8, 2) in x, z from the spine to a bevelled edge."""
     width_m = edge_m - spine_m
     back_m = spine_m + min(size.spine_bevel_m, 0.2 * width_m)
@@ -118,40 +66,7 @@ def _blade_section(
     return np.array(lower + [(x, -z) for x, z in reversed(lower)])
 
 
-@dataclass(frozen=True)
-class Scissors:
-    """Closed scissors: finger loops towards +y, blades towards -y, flat in z.
-
-    Each half is one blade with the loop on the other side. The halves lie on top of each other and
-    are mirror images in x, except for the offset of the blades' tips.
-    """
-
-    half_thickness_m: float = 0.0045
-    tilt_deg: float = 1.9
-    loop_x_m: float = 0.0190
-    loop_y_m: float = 0.0260
-    loop_width_m: float = 0.0358
-    loop_length_m: float = 0.0581
-    loop_wall_m: float = 0.0060
-    bow_outer_radius_m: float = 0.0172
-    stop_y_m: float = 0.0281
-    stop_radius_m: float = 0.0044
-    pivot_y_m: float = -0.0153
-    pivot_radius_m: float = 0.0118
-    rivet_radius_m: float = 0.0089
-    rivet_top_m: float = 0.0076
-    rivet_bottom_m: float = -0.0069
-    blade_inset_m: float = 0.0002
-    rivet_hole_radius_m: float = 0.0022
-    tip_y_m: float = -0.0749
-    tip_outer_x_m: float = 0.0056
-    tip_inner_x_m: float = 0.0036
-    tip_radius_m: float = 0.0019
-    blade_inner_x_m: float = 0.0032
-    plastic_density_kg_m3: float = 1100.0
-
-
-def scissors(size: Scissors = Scissors()) -> ObjectModel:
+def scissors(size: Size) -> ObjectModel:
     """Build the scissors with parts blade_left, blade_right, loop_left, loop_right and pivot."""
     blade = _scissors_blade(size)
     loop = _scissors_loop(size)
@@ -179,7 +94,7 @@ def scissors(size: Scissors = Scissors()) -> ObjectModel:
     return ObjectModel(parts, density_kg_m3=7800.0)
 
 
-def _scissors_blade(size: Scissors) -> Manifold:
+def _scissors_blade(size: Size) -> Manifold:
     """Return the blade right of the middle with its pivot disc on the upper layer.
 
     It reaches slightly below z = 0, so that the two halves join, and is flush with the underside of
@@ -208,7 +123,7 @@ def _scissors_blade(size: Scissors) -> Manifold:
     return side + disc
 
 
-def _scissors_loop(size: Scissors) -> Manifold:
+def _scissors_loop(size: Size) -> Manifold:
     """Return the right finger loop, full thickness, and its shank on the upper layer."""
     centre = (size.loop_x_m, size.loop_y_m)
     outer = sections.rounded_rectangle(
@@ -233,7 +148,7 @@ def _scissors_loop(size: Scissors) -> Manifold:
     return ring + (arm - solids.extrude(hole + centre, 1.0))
 
 
-def _scissors_stop(size: Scissors) -> Manifold:
+def _scissors_stop(size: Size) -> Manifold:
     """Return the bump between the loops, on the left one."""
     height_m = 2 * (size.half_thickness_m - size.blade_inset_m)
     bump = solids.cylinder(size.stop_radius_m, height_m)

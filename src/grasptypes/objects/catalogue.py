@@ -1,6 +1,9 @@
 """The 19 objects of ContactGrasp (Brahmbhatt et al. 2019) by name."""
 
 from collections.abc import Callable
+from functools import cache
+from pathlib import Path
+from typing import Any
 
 from grasptypes.objects import (
     bathroom,
@@ -13,9 +16,11 @@ from grasptypes.objects import (
     turned,
     vessels,
 )
-from grasptypes.objects.parts import ObjectModel
+from grasptypes.objects.parts import ObjectModel, Size
+from grasptypes.yaml_files import read_yaml
 
-OBJECTS: dict[str, Callable[..., ObjectModel]] = {
+DIMENSIONS = Path(__file__).with_name("dimensions.yaml")
+OBJECTS: dict[str, Callable[[Size], ObjectModel]] = {
     "apple": fruit.apple,
     "banana": fruit.banana,
     "bowl": vessels.bowl,
@@ -36,3 +41,13 @@ OBJECTS: dict[str, Callable[..., ObjectModel]] = {
     "water_bottle": turned.water_bottle,
     "wine_glass": vessels.wine_glass,
 }
+
+
+def build(name: str, **changes: float) -> ObjectModel:
+    """Build an object with the dimensions in `dimensions.yaml`, some of them changed."""
+    return OBJECTS[name](Size(**(_dimensions()[name] | changes)))
+
+
+@cache
+def _dimensions() -> dict[str, Any]:
+    return read_yaml(DIMENSIONS)

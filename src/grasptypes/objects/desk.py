@@ -1,12 +1,10 @@
 """Computer mouse and stapler, in ContactDB's frame and size (metres)."""
 
-from dataclasses import dataclass
-
 import numpy as np
 from manifold3d import Manifold
 
 from grasptypes.objects import lofts, sections, solids
-from grasptypes.objects.parts import Material, ObjectModel, Part
+from grasptypes.objects.parts import Material, ObjectModel, Part, Size
 
 GREY_PLASTIC = Material((0.36, 0.38, 0.41, 1.0), roughness=0.5)
 PALE_PLASTIC = Material((0.80, 0.81, 0.82, 1.0), roughness=0.45)
@@ -16,48 +14,7 @@ BLACK_PLASTIC = Material((0.10, 0.10, 0.11, 1.0), roughness=0.5)
 SHEET_STEEL = Material((0.70, 0.72, 0.75, 1.0), metallic=0.3, roughness=0.35)
 
 
-@dataclass(frozen=True)
-class Mouse:
-    """Computer mouse: flat side -z, wheel and buttons towards -x.
-
-    Attributes:
-        stations: rows of x, half width along y, z of the base, z of the ridge, exponent of the
-            section's superellipse (2 elliptical, larger boxier).
-    """
-
-    stations: tuple[tuple[float, float, float, float, float], ...] = (
-        (-0.0590, 0.0040, -0.0068, -0.0035, 2.0),
-        (-0.0585, 0.0092, -0.0084, -0.0005, 2.0),
-        (-0.0570, 0.0178, -0.0122, 0.0022, 2.0),
-        (-0.0550, 0.0251, -0.0145, 0.0040, 2.3),
-        (-0.0500, 0.0305, -0.0164, 0.0064, 3.2),
-        (-0.0400, 0.0313, -0.0164, 0.0090, 3.6),
-        (-0.0220, 0.0311, -0.0164, 0.0152, 4.2),
-        (0.0000, 0.0300, -0.0164, 0.0212, 5.0),
-        (0.0180, 0.0296, -0.0164, 0.0226, 5.0),
-        (0.0340, 0.0296, -0.0164, 0.0207, 5.0),
-        (0.0460, 0.0298, -0.0164, 0.0158, 4.0),
-        (0.0500, 0.0297, -0.0154, 0.0130, 3.2),
-        (0.0540, 0.0260, -0.0109, 0.0089, 2.2),
-        (0.0560, 0.0182, -0.0066, 0.0062, 2.0),
-        (0.0578, 0.0050, -0.0020, 0.0022, 2.0),
-    )
-    crown_m: float = 0.0026
-    buttons_end_x_m: float = 0.0060
-    buttons_side_y_m: float = 0.0246
-    buttons_low_z_m: float = -0.0050
-    seam_m: float = 0.0008
-    seam_depth_m: float = 0.0020
-    wheel_x_m: float = -0.0245
-    wheel_z_m: float = -0.0010
-    wheel_radius_m: float = 0.0195
-    wheel_half_width_m: float = 0.0050
-    wheel_gap_m: float = 0.0008
-    wheel_bottom_z_m: float = 0.0060
-    wheel_sunk_m: float = 0.0010
-
-
-def mouse(size: Mouse = Mouse()) -> ObjectModel:
+def mouse(size: Size) -> ObjectModel:
     """Build the mouse with parts body, button_left, button_right and wheel."""
     shell = _mouse_shell(size)
     core = _mouse_shell(size, size.seam_depth_m)
@@ -78,7 +35,7 @@ def mouse(size: Mouse = Mouse()) -> ObjectModel:
     return ObjectModel(parts, density_kg_m3=550.0)
 
 
-def _mouse_shell(size: Mouse, inset_m: float = 0.0) -> Manifold:
+def _mouse_shell(size: Size, inset_m: float = 0.0) -> Manifold:
     """Return the outer shape, inset by `inset_m`."""
     stations, values = lofts.interpolate_stations(size.stations, count=72)
     outlines = [
@@ -94,7 +51,7 @@ def _mouse_shell(size: Mouse, inset_m: float = 0.0) -> Manifold:
     return shell.translate(tuple(-middle)).scale(tuple(factors)).translate(tuple(middle))
 
 
-def _mouse_buttons_zone(size: Mouse) -> Manifold:
+def _mouse_buttons_zone(size: Size) -> Manifold:
     """Return the block that cuts both buttons from the shell."""
     length_m, height_m = 0.2, 0.1
     block = solids.box((length_m, 2 * size.buttons_side_y_m, height_m))
@@ -103,7 +60,7 @@ def _mouse_buttons_zone(size: Mouse) -> Manifold:
     )
 
 
-def _mouse_seams(size: Mouse) -> Manifold:
+def _mouse_seams(size: Size) -> Manifold:
     """Return the cutters of the seams around and between the buttons."""
     long_m, high_m, seam_m = 0.2, 0.1, size.seam_m
     end_m, low_m = size.buttons_end_x_m, size.buttons_low_z_m
@@ -119,7 +76,7 @@ def _mouse_seams(size: Mouse) -> Manifold:
     )
 
 
-def _mouse_wheel(size: Mouse, gap_m: float = 0.0) -> Manifold:
+def _mouse_wheel(size: Size, gap_m: float = 0.0) -> Manifold:
     """Return the visible segment of the wheel or, with a gap, the well it turns in."""
     radius_m, half_m = size.wheel_radius_m + gap_m, size.wheel_half_width_m + gap_m
     rim = sections.superellipse(radius_m, half_m, 3.2, 64)
@@ -130,56 +87,7 @@ def _mouse_wheel(size: Mouse, gap_m: float = 0.0) -> Manifold:
     return solids.slabs(wheel, [bottom_m])[1]
 
 
-@dataclass(frozen=True)
-class Stapler:
-    """Desk stapler, half open: base -z, hinge end -x.
-
-    Attributes:
-        cover_side: (x, z) outline of the cover seen from the side.
-    """
-
-    base_bottom_x_m: tuple[float, float] = (-0.0574, 0.0656)
-    base_top_x_m: tuple[float, float] = (-0.0567, 0.0633)
-    base_bottom_width_m: float = 0.0300
-    base_top_width_m: float = 0.0285
-    base_bottom_z_m: float = -0.0187
-    base_top_z_m: float = -0.0097
-    anvil_x_m: tuple[float, float] = (0.0385, 0.0560)
-    anvil_width_m: float = 0.0240
-    anvil_height_m: float = 0.0004
-    cover_side: tuple[tuple[float, float], ...] = (
-        (-0.0529, -0.0019),
-        (-0.0110, -0.0010),
-        (-0.0108, 0.0006),
-        (-0.0100, 0.0012),
-        (0.0594, 0.0101),
-        (0.0546, 0.0206),
-        (0.0538, 0.0215),
-        (0.0526, 0.0218),
-        (-0.0514, 0.0122),
-        (-0.0527, 0.0117),
-        (-0.0536, 0.0106),
-        (-0.0560, 0.0014),
-        (-0.0557, -0.0005),
-        (-0.0546, -0.0015),
-    )
-    cover_width_m: float = 0.0240
-    cover_wall_m: float = 0.0030
-    magazine_x_m: tuple[float, float] = (-0.0545, 0.0536)
-    magazine_z_m: tuple[float, float] = (-0.0018, 0.0102)
-    magazine_width_m: float = 0.0106
-    hinge_x_m: tuple[float, float] = (-0.0520, -0.0117)
-    hinge_top_z_m: float = 0.0053
-    hinge_outer_width_m: float = 0.0172
-    hinge_wall_m: float = 0.0030
-    hinge_bar_z_m: float = -0.0065
-    pin_x_m: float = -0.0480
-    pin_z_m: float = 0.0025
-    pin_radius_m: float = 0.0022
-    pin_head_m: float = 0.0004
-
-
-def stapler(size: Stapler = Stapler()) -> ObjectModel:
+def stapler(size: Size) -> ObjectModel:
     """Build the stapler with parts base, anvil, hinge, pin, magazine and cover."""
     parts = (
         Part("base", _stapler_base(size), BLACK_PLASTIC),
@@ -192,7 +100,7 @@ def stapler(size: Stapler = Stapler()) -> ObjectModel:
     return ObjectModel(parts, density_kg_m3=2200.0)
 
 
-def _stapler_base(size: Stapler) -> Manifold:
+def _stapler_base(size: Size) -> Manifold:
     outlines = [
         sections.rounded_rectangle(end - start, width, 0.0012) + [(start + end) / 2, 0.0]
         for (start, end), width in (
@@ -209,7 +117,7 @@ def _block(x_m: tuple[float, float], width_m: float, z_m: tuple[float, float]) -
     return box.translate(((x_m[0] + x_m[1]) / 2, 0.0, (z_m[0] + z_m[1]) / 2))
 
 
-def _stapler_anvil(size: Stapler) -> Manifold:
+def _stapler_anvil(size: Size) -> Manifold:
     top_m = size.base_top_z_m
     plate = _block(size.anvil_x_m, size.anvil_width_m, (top_m - 0.001, top_m + size.anvil_height_m))
     middle_m = sum(size.anvil_x_m) / 2
@@ -217,7 +125,7 @@ def _stapler_anvil(size: Stapler) -> Manifold:
     return plate - dent.translate((middle_m + 0.006, 0.0, top_m + size.anvil_height_m))
 
 
-def _stapler_hinge(size: Stapler) -> Manifold:
+def _stapler_hinge(size: Size) -> Manifold:
     """Return the bracket: two cheeks joined by a plate on the base."""
     low_m = size.base_top_z_m - 0.0005
     outer = _block(size.hinge_x_m, size.hinge_outer_width_m, (low_m, size.hinge_top_z_m))
@@ -228,17 +136,17 @@ def _stapler_hinge(size: Stapler) -> Manifold:
     return (outer - inner) + (plate - opening)
 
 
-def _stapler_pin(size: Stapler) -> Manifold:
+def _stapler_pin(size: Size) -> Manifold:
     """Return the pin that carries the cover, its heads showing on both sides."""
     pin = solids.cylinder(size.pin_radius_m, size.cover_width_m + 2 * size.pin_head_m, axis="y")
     return pin.translate((size.pin_x_m, 0.0, size.pin_z_m))
 
 
-def _stapler_magazine(size: Stapler) -> Manifold:
+def _stapler_magazine(size: Size) -> Manifold:
     return _block(size.magazine_x_m, size.magazine_width_m, size.magazine_z_m)
 
 
-def _stapler_cover(size: Stapler) -> Manifold:
+def _stapler_cover(size: Size) -> Manifold:
     """Return the channel-shaped cover, open towards the magazine."""
     side = np.asarray(size.cover_side)
     # When extruded along -y, a polygon is in (x, z).

@@ -1,49 +1,18 @@
 """Apple and banana; ContactDB has no mesh of them, so they have common market sizes."""
 
-from dataclasses import dataclass
-
 import numpy as np
 from manifold3d import Manifold
 
 from grasptypes.objects import sections, solids
-from grasptypes.objects.parts import Material, ObjectModel, Part
+from grasptypes.objects.parts import Material, ObjectModel, Part, Size
 
 APPLE_RED = Material((0.72, 0.07, 0.09, 1.0), roughness=0.3)
 BARK = Material((0.30, 0.19, 0.09, 1.0), roughness=0.9)
 BANANA_YELLOW = Material((0.98, 0.80, 0.13, 1.0), roughness=0.5)
 BANANA_STEM = Material((0.62, 0.60, 0.16, 1.0), roughness=0.7)
 
-Points = tuple[tuple[float, float], ...]
 
-
-@dataclass(frozen=True)
-class Apple:
-    """Apple upright along z; the profile's rows are fractions of the radius and half height."""
-
-    diameter_m: float = 0.0750
-    height_m: float = 0.0680
-    profile: Points = (
-        (0.02, -0.80),
-        (0.10, -0.86),
-        (0.28, -0.99),
-        (0.46, -0.97),
-        (0.77, -0.70),
-        (0.97, -0.08),
-        (0.99, 0.32),
-        (0.86, 0.76),
-        (0.60, 0.99),
-        (0.34, 0.96),
-        (0.14, 0.74),
-        (0.02, 0.58),
-    )
-    lobes: int = 5
-    lobe_depth: float = 0.035
-    stem_length_m: float = 0.0240
-    stem_radius_m: float = 0.0014
-    stem_lean_m: float = 0.0060
-
-
-def apple(size: Apple = Apple()) -> ObjectModel:
+def apple(size: Size) -> ObjectModel:
     """Build the apple with parts flesh, stem and calyx."""
     radius_m, half_m = size.diameter_m / 2, size.height_m / 2
     curve = sections.smooth_curve(size.profile, 72) * [radius_m, half_m]
@@ -77,34 +46,7 @@ def apple(size: Apple = Apple()) -> ObjectModel:
     return ObjectModel(parts, density_kg_m3=840.0)
 
 
-@dataclass(frozen=True)
-class Banana:
-    """Banana along x, stem at -x, its ends bent up to +z; girth rows: fraction of length, radius.
-
-    The origin is the centre of the bounding box.
-    """
-
-    length_m: float = 0.1900
-    bend_radius_m: float = 0.1400
-    girth_m: Points = (
-        (0.00, 0.0052),
-        (0.07, 0.0058),
-        (0.13, 0.0085),
-        (0.22, 0.0142),
-        (0.35, 0.0176),
-        (0.55, 0.0180),
-        (0.75, 0.0165),
-        (0.88, 0.0118),
-        (0.96, 0.0060),
-        (1.00, 0.0040),
-    )
-    ridges: int = 5
-    ridge_height: float = 0.045
-    stem_fraction: float = 0.10
-    tip_fraction: float = 0.025
-
-
-def banana(size: Banana = Banana()) -> ObjectModel:
+def banana(size: Size) -> ObjectModel:
     """Build the banana with parts body, stem and tip."""
     body = _banana_length(size, 0.0, 1.0, 1.0)
     stem = _banana_length(size, -0.004, size.stem_fraction, 1.04)
@@ -119,7 +61,7 @@ def banana(size: Banana = Banana()) -> ObjectModel:
     return ObjectModel(parts, density_kg_m3=950.0)
 
 
-def _banana_length(size: Banana, start: float, end: float, swell: float) -> Manifold:
+def _banana_length(size: Size, start: float, end: float, swell: float) -> Manifold:
     """Sweep the stretch of the banana between two fractions of its length."""
     half_turn = np.arcsin(size.length_m / 2 / (size.bend_radius_m + size.girth_m[0][1]))
     along = np.linspace(start, end, max(6, int(80 * (end - start))))

@@ -1,8 +1,13 @@
 """Object models: named solids with materials and densities."""
 
 from dataclasses import dataclass
+from types import SimpleNamespace
 
 from manifold3d import Manifold
+
+
+class Size(SimpleNamespace):
+    """Dimensions of a catalogue object: the numbers, and rows of them, in `dimensions.yaml`."""
 
 
 @dataclass(frozen=True)

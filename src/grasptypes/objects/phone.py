@@ -1,12 +1,10 @@
 """Cell phone with keys, in ContactDB's frame and size (metres)."""
 
-from dataclasses import dataclass
-
 from manifold3d import Manifold
 from numpy.typing import ArrayLike
 
 from grasptypes.objects import lofts, sections, solids
-from grasptypes.objects.parts import Material, ObjectModel, Part
+from grasptypes.objects.parts import Material, ObjectModel, Part, Size
 
 NAVY_PLASTIC = Material((0.10, 0.17, 0.34, 1.0), roughness=0.45)
 BLACK_PLASTIC = Material((0.08, 0.08, 0.09, 1.0), roughness=0.5)
@@ -15,62 +13,7 @@ GREEN_SCREEN = Material((0.60, 0.74, 0.42, 1.0), roughness=0.2)
 LIGHT_KEYS = Material((0.88, 0.90, 0.90, 1.0), roughness=0.5)
 
 
-@dataclass(frozen=True)
-class CellPhone:
-    """Bar phone from about the year 2000: antenna +x, keys and screen +z.
-
-    Attributes:
-        stations: rows of x, half width along y, z of the back's middle, z of the front's middle.
-    """
-
-    stations: tuple[tuple[float, float, float, float], ...] = (
-        (-0.0668, 0.0150, -0.0095, 0.0050),
-        (-0.0662, 0.0178, -0.0101, 0.0092),
-        (-0.0650, 0.0201, -0.0102, 0.0100),
-        (-0.0600, 0.0231, -0.0103, 0.0098),
-        (-0.0480, 0.0236, -0.0106, 0.0099),
-        (-0.0050, 0.0236, -0.0092, 0.0099),
-        (0.0250, 0.0236, -0.0108, 0.0101),
-        (0.0420, 0.0229, -0.0123, 0.0102),
-        (0.0550, 0.0200, -0.0117, 0.0102),
-        (0.0620, 0.0168, -0.0106, 0.0102),
-        (0.0650, 0.0126, -0.0101, 0.0101),
-        (0.0662, 0.0075, -0.0097, 0.0060),
-    )
-    middle_y_m: float = 0.00035
-    exponent: float = 9.0
-    crown_m: float = 0.0010
-    seam_z_m: float = 0.0008
-    seam_m: float = 0.0006
-    antenna_y_m: float = -0.0150
-    antenna_z_m: float = -0.0002
-    antenna_radius_m: float = 0.0045
-    antenna_start_x_m: float = 0.0560
-    antenna_end_x_m: float = 0.0814
-    bezel_start_x_m: float = -0.0110
-    bezel_end_x_m: float = 0.0405
-    bezel_width_m: float = 0.0400
-    bezel_height_m: float = 0.0011
-    screen_x_m: float = 0.0162
-    screen_length_m: float = 0.0224
-    screen_width_m: float = 0.0310
-    screen_recess_m: float = 0.0006
-    key_columns_y_m: tuple[float, ...] = (-0.0135, 0.0003, 0.0142)
-    key_rows_x_m: tuple[float, ...] = (-0.0500, -0.0405, -0.0310, -0.0215)
-    key_half_x_m: float = 0.0025
-    key_half_y_m: float = 0.0054
-    key_height_m: float = 0.0006
-    menu_x_m: float = -0.0056
-    menu_half_x_m: float = 0.0046
-    menu_half_y_m: float = 0.0060
-    menu_height_m: float = 0.0020
-    bar_x_m: float = -0.0596
-    bar_half_x_m: float = 0.0030
-    bar_half_y_m: float = 0.0145
-    speaker_x_m: float = 0.0520
-
-
-def cell_phone(size: CellPhone = CellPhone()) -> ObjectModel:
+def cell_phone(size: Size) -> ObjectModel:
     """Build the phone with parts back, front, bezel, screen, keys, menu_key and antenna."""
     front, back = _phone_covers(size)
     bezel, screen = _phone_display(size)
@@ -86,7 +29,7 @@ def cell_phone(size: CellPhone = CellPhone()) -> ObjectModel:
     return ObjectModel(parts, density_kg_m3=1100.0)
 
 
-def _phone_shell(size: CellPhone, raise_m: float = 0.0) -> Manifold:
+def _phone_shell(size: Size, raise_m: float = 0.0) -> Manifold:
     """Return the whole case, with its front raised by `raise_m`."""
     stations, values = lofts.interpolate_stations(size.stations, count=64)
     outlines = [
@@ -99,12 +42,12 @@ def _phone_shell(size: CellPhone, raise_m: float = 0.0) -> Manifold:
     return lofts.loft_along("x", stations, outlines)
 
 
-def _on_front(size: CellPhone, outline: ArrayLike, raise_m: float) -> Manifold:
+def _on_front(size: Size, outline: ArrayLike, raise_m: float) -> Manifold:
     """Return a slab of an outline (N, 2) in x, y that follows the front, raised above it."""
     return _phone_shell(size, raise_m) ^ solids.extrude(outline, 0.1, centred=False)
 
 
-def _phone_covers(size: CellPhone) -> tuple[Manifold, Manifold]:
+def _phone_covers(size: Size) -> tuple[Manifold, Manifold]:
     """Return the front and the back cover, with a seam around the case and speaker slots."""
     shell = _phone_shell(size)
     slab = solids.box((1.0, 1.0, size.seam_m)).translate((0.0, 0.0, size.seam_z_m))
@@ -120,7 +63,7 @@ def _phone_covers(size: CellPhone) -> tuple[Manifold, Manifold]:
     return front, back
 
 
-def _phone_display(size: CellPhone) -> tuple[Manifold, Manifold]:
+def _phone_display(size: Size) -> tuple[Manifold, Manifold]:
     """Return the raised bezel, with a window, and the screen in it."""
     middle_x_m = (size.bezel_start_x_m + size.bezel_end_x_m) / 2
     length_m = size.bezel_end_x_m - size.bezel_start_x_m
@@ -133,7 +76,7 @@ def _phone_display(size: CellPhone) -> tuple[Manifold, Manifold]:
     return bezel - solids.extrude(window + place, 0.1, centred=False), screen
 
 
-def _phone_keys(size: CellPhone) -> Manifold:
+def _phone_keys(size: Size) -> Manifold:
     """Return the twelve number keys, the two call keys and the bar below them."""
     key = lofts.even_superellipse(size.key_half_x_m, size.key_half_y_m, 2.4)
     bar = lofts.even_superellipse(size.bar_half_x_m, size.bar_half_y_m, 3.0)
@@ -147,12 +90,12 @@ def _phone_keys(size: CellPhone) -> Manifold:
     return solids.union(*keys, *calls)
 
 
-def _phone_menu_key(size: CellPhone) -> Manifold:
+def _phone_menu_key(size: Size) -> Manifold:
     outline = lofts.even_superellipse(size.menu_half_x_m, size.menu_half_y_m, 2.8)
     return _on_front(size, outline + [size.menu_x_m, size.middle_y_m], size.menu_height_m)
 
 
-def _phone_antenna(size: CellPhone) -> Manifold:
+def _phone_antenna(size: Size) -> Manifold:
     radius_m, end_m = size.antenna_radius_m, size.antenna_end_x_m
     profile = sections.chain(
         [(0.0, size.antenna_start_x_m), (0.55 * radius_m, size.antenna_start_x_m)],

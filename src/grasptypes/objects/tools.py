@@ -1,12 +1,10 @@
 """Hammer and flashlight, in ContactDB's frame and size (metres)."""
 
-from dataclasses import dataclass
-
 import numpy as np
 from manifold3d import Manifold
 
 from grasptypes.objects import lofts, sections, solids
-from grasptypes.objects.parts import Material, ObjectModel, Part
+from grasptypes.objects.parts import Material, ObjectModel, Part, Size
 
 STEEL = Material((0.56, 0.58, 0.61, 1.0), metallic=0.3, roughness=0.4)
 POLISHED_STEEL = Material((0.74, 0.76, 0.79, 1.0), metallic=0.3, roughness=0.3)
@@ -17,46 +15,7 @@ REFLECTOR = Material((0.82, 0.83, 0.85, 1.0), metallic=0.2, roughness=0.25)
 WARM_LENS = Material((1.0, 0.90, 0.45, 1.0), roughness=0.2)
 
 
-@dataclass(frozen=True)
-class Hammer:
-    """Claw hammer: handle along +x, head axis along y with the face up and the claw down.
-
-    Attributes:
-        handle_stations: rows of x, half width along y, half thickness along z.
-        claw_stations: rows of y, x of the outer curve, x of the inner curve.
-    """
-
-    head_x_m: float = -0.0697
-    head_width_m: float = 0.0231
-    head_start_y_m: float = -0.0165
-    head_end_y_m: float = 0.0231
-    head_chamfer_m: float = 0.002
-    neck_radius_m: float = 0.0064
-    neck_y_m: float = 0.0276
-    face_start_y_m: float = 0.0355
-    face_radius_m: float = 0.0116
-    face_end_y_m: float = 0.0475
-    face_chamfer_m: float = 0.0012
-    claw_stations: tuple[tuple[float, float, float], ...] = (
-        (-0.0697, -0.0629, -0.0580),
-        (-0.0591, -0.0679, -0.0597),
-        (-0.0484, -0.0719, -0.0610),
-        (-0.0272, -0.0787, -0.0633),
-        (-0.0165, -0.0812, -0.0582),
-    )
-    claw_gap_m: float = 0.0124
-    handle_y_m: float = 0.0050
-    handle_stations: tuple[tuple[float, float, float], ...] = (
-        (-0.0620, 0.0062, 0.0086),
-        (0.0150, 0.0117, 0.0101),
-        (0.0900, 0.0174, 0.0116),
-        (0.1000, 0.0164, 0.0116),
-        (0.1239, 0.0113, 0.0116),
-    )
-    handle_exponent: float = 3.6
-
-
-def hammer(size: Hammer = Hammer()) -> ObjectModel:
+def hammer(size: Size) -> ObjectModel:
     """Build the hammer with parts head, face, claw and handle."""
     head, face = _hammer_head(size)
     parts = (
@@ -68,7 +27,7 @@ def hammer(size: Hammer = Hammer()) -> ObjectModel:
     return ObjectModel(parts, density_kg_m3=7850.0)
 
 
-def _hammer_handle(size: Hammer) -> Manifold:
+def _hammer_handle(size: Size) -> Manifold:
     stations, halves = lofts.interpolate_stations(size.handle_stations)
     outlines = [
         lofts.even_superellipse(width, thickness, size.handle_exponent) + [size.handle_y_m, 0.0]
@@ -77,7 +36,7 @@ def _hammer_handle(size: Hammer) -> Manifold:
     return lofts.loft_along("x", stations, outlines)
 
 
-def _hammer_head(size: Hammer) -> tuple[Manifold, Manifold]:
+def _hammer_head(size: Size) -> tuple[Manifold, Manifold]:
     """Return the head's block with its neck, and the striking face."""
     chamfer = size.face_chamfer_m
     shoulder_m = size.head_end_y_m + 0.0015
@@ -110,7 +69,7 @@ def _hammer_head(size: Hammer) -> tuple[Manifold, Manifold]:
     return block + turned[0], turned[1]
 
 
-def _hammer_claw(size: Hammer) -> Manifold:
+def _hammer_claw(size: Size) -> Manifold:
     stations, curves = lofts.interpolate_stations(size.claw_stations, count=24)
     side = np.vstack(
         [
@@ -130,34 +89,7 @@ def _hammer_claw(size: Hammer) -> Manifold:
     return claw + key.translate((size.head_x_m, size.head_start_y_m + 0.001, 0.0))
 
 
-@dataclass(frozen=True)
-class Flashlight:
-    """Torch along z: tail at the top, lamp head at the bottom, switch on the +y side."""
-
-    body_radius_m: float = 0.0106
-    tail_chamfer_m: float = 0.0020
-    tail_chamfer_height_m: float = 0.0043
-    tail_cap_height_m: float = 0.0140
-    tail_z_m: float = 0.0807
-    collar_start_z_m: float = -0.0245
-    collar_end_z_m: float = -0.0319
-    head_radius_m: float = 0.0153
-    bezel_z_m: float = -0.0514
-    bezel_radius_m: float = 0.0163
-    front_z_m: float = -0.0583
-    front_radius_m: float = 0.0172
-    reflector_z_m: float = -0.0567
-    reflector_radius_m: float = 0.0147
-    reflector_depth_m: float = 0.0180
-    lens_radius_m: float = 0.0095
-    button_z_m: float = -0.0160
-    button_radius_m: float = 0.0058
-    button_top_y_m: float = 0.0137
-    groove_depth_m: float = 0.0005
-    grip_grooves_z_m: tuple[float, ...] = (0.000, 0.012, 0.024, 0.036, 0.048)
-
-
-def flashlight(size: Flashlight = Flashlight()) -> ObjectModel:
+def flashlight(size: Size) -> ObjectModel:
     """Build the flashlight with parts body, tail, head, reflector, lens and button."""
     body, tail = _flashlight_body(size)
     head, reflector, lens = _flashlight_head(size)
@@ -172,7 +104,7 @@ def flashlight(size: Flashlight = Flashlight()) -> ObjectModel:
     return ObjectModel(parts, density_kg_m3=1100.0)
 
 
-def _flashlight_body(size: Flashlight) -> tuple[Manifold, Manifold]:
+def _flashlight_body(size: Size) -> tuple[Manifold, Manifold]:
     """Return the tube with its grip grooves, and the tail cap."""
     radius_m, tail_z_m = size.body_radius_m, size.tail_z_m
     tube = [
@@ -190,7 +122,7 @@ def _flashlight_body(size: Flashlight) -> tuple[Manifold, Manifold]:
     return solids.difference(body, seam, *grooves), tail - seam
 
 
-def _flashlight_head(size: Flashlight) -> tuple[Manifold, Manifold, Manifold]:
+def _flashlight_head(size: Size) -> tuple[Manifold, Manifold, Manifold]:
     """Return the lamp head, the conical reflector in it, and the lens."""
     shell = [
         (0.0, size.front_z_m),
@@ -223,7 +155,7 @@ def _flashlight_head(size: Flashlight) -> tuple[Manifold, Manifold, Manifold]:
     return head - solids.revolve(hollow), reflector, sunk
 
 
-def _flashlight_button(size: Flashlight) -> Manifold:
+def _flashlight_button(size: Size) -> Manifold:
     """Return the domed rubber switch, sunk into the body."""
     radius_m, top_m = size.button_radius_m, size.button_top_y_m
     profile = sections.chain(

@@ -1,12 +1,10 @@
 """Closed turned objects in ContactDB's frame and size: water bottle and light bulb."""
 
-from dataclasses import dataclass
-
 import numpy as np
 from manifold3d import Manifold
 
 from grasptypes.objects import sections, solids
-from grasptypes.objects.parts import Material, ObjectModel, Part
+from grasptypes.objects.parts import Material, ObjectModel, Part, Size
 
 WATER_BLUE = Material((0.52, 0.76, 0.90, 1.0), roughness=0.15)
 LABEL_BLUE = Material((0.07, 0.22, 0.62, 1.0), roughness=0.5)
@@ -15,40 +13,8 @@ OPAL_GLASS = Material((0.98, 0.96, 0.88, 1.0), roughness=0.25)
 BRASS = Material((0.72, 0.60, 0.34, 1.0), metallic=0.5, roughness=0.35)
 BLACK_GLASS = Material((0.06, 0.06, 0.07, 1.0), roughness=0.4)
 
-Points = tuple[tuple[float, float], ...]
 
-
-@dataclass(frozen=True)
-class WaterBottle:
-    """Filled bottle upright along z, with five feet pressed into its base.
-
-    Attributes:
-        groove_start_m, groove_end_m: radius and height of the ends of the grooves' ridge line.
-    """
-
-    body_radius_m: float = 0.0301
-    bottom_height_m: float = -0.0606
-    foot_radius_m: float = 0.0247
-    foot_round_height_m: float = 0.0130
-    dimple_radius_m: float = 0.0123
-    dimple_height_m: float = 0.0025
-    grooves: int = 5
-    groove_start_m: tuple[float, float] = (0.0066, -0.0580)
-    groove_end_m: tuple[float, float] = (0.0310, -0.0480)
-    groove_half_angle_deg: float = 40.0
-    label_bottom_m: float = -0.0300
-    label_top_m: float = 0.0220
-    shoulder_height_m: float = 0.0300
-    neck_height_m: float = 0.0586
-    neck_radius_m: float = 0.0090
-    collar_height_m: float = 0.0613
-    collar_thickness_m: float = 0.0017
-    cap_radius_m: float = 0.0121
-    cap_bottom_m: float = 0.0653
-    cap_top_m: float = 0.0759
-
-
-def water_bottle(size: WaterBottle = WaterBottle()) -> ObjectModel:
+def water_bottle(size: Size) -> ObjectModel:
     """Build the water bottle with parts cap, neck, shoulder, label and body."""
     foot = size.foot_radius_m
     turn = np.radians(np.linspace(0, 90, 17))
@@ -92,7 +58,7 @@ def _disc(radius_m: float, bottom_m: float, top_m: float) -> Manifold:
     return solids.cylinder(radius_m, top_m - bottom_m).translate((0, 0, (bottom_m + top_m) / 2))
 
 
-def _petal_grooves(size: WaterBottle) -> Manifold:
+def _petal_grooves(size: Size) -> Manifold:
     """Return the V grooves between the feet: wedges whose ridge climbs outwards."""
     (start_r, start_z), (end_r, end_z) = size.groove_start_m, size.groove_end_m
     slope = (end_z - start_z) / (end_r - start_r)
@@ -110,30 +76,7 @@ def _petal_grooves(size: WaterBottle) -> Manifold:
     return solids.union(*(wedge.rotate((0, 0, turn)) for turn in turns))
 
 
-@dataclass(frozen=True)
-class LightBulb:
-    """Light bulb along x, the glass ball at +x; profile rows are radius, x."""
-
-    ball_radius_m: float = 0.0311
-    ball_centre_x_m: float = 0.0165
-    ball_start_deg: float = -33.0
-    neck_profile_m: Points = (
-        (0.0133, -0.0365),
-        (0.0137, -0.0300),
-        (0.0157, -0.0200),
-        (0.0198, -0.0100),
-    )
-    thread_root_radius_m: float = 0.0132
-    thread_crest_radius_m: float = 0.0145
-    thread_pitch_m: float = 0.0040
-    thread_turns: int = 4
-    base_start_x_m: float = -0.0524
-    shell_profile_m: Points = ((0.0076, -0.0580), (0.0106, -0.0560), (0.0126, -0.0540))
-    tip_radius_m: float = 0.0043
-    tip_end_x_m: float = -0.0629
-
-
-def light_bulb(size: LightBulb = LightBulb()) -> ObjectModel:
+def light_bulb(size: Size) -> ObjectModel:
     """Build the light bulb with parts glass, screw_base, insulator and contact_tip."""
     ball = sections.arc(
         (0.0, size.ball_centre_x_m), size.ball_radius_m, size.ball_start_deg, 90, 48
@@ -157,7 +100,7 @@ def light_bulb(size: LightBulb = LightBulb()) -> ObjectModel:
     return ObjectModel(parts, density_kg_m3=2500.0, shell_thickness_m=0.0008)
 
 
-def _screw_base(size: LightBulb) -> Manifold:
+def _screw_base(size: Size) -> Manifold:
     """Return the base, upright: a sleeve with ridges as coarse as the thread in the scan."""
     start, end = size.base_start_x_m, size.neck_profile_m[0][1]
     sleeve = sections.chain(

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from grasptypes.objects import solids
-from grasptypes.objects.catalogue import OBJECTS
+from grasptypes.objects.catalogue import build
 from grasptypes.objects.parts import ObjectModel
 from grasptypes.objects.variants import variant_of
 from grasptypes.seeds import rng
@@ -114,4 +114,4 @@ def build_variant(name: str, ranges: VariationRanges, seed: int) -> ObjectModel:
     """
     base, number = variant_of(name)
     draw = rng("variant", base, number, seed)
-    return vary(OBJECTS[base](), draw_variation(ranges, draw))
+    return vary(build(base), draw_variation(ranges, draw))

@@ -1,14 +1,10 @@
 """Open vessels in ContactDB's frame and size: bowl, cup, mug and wine glass (opening +z)."""
 
-from dataclasses import dataclass
-
 import numpy as np
 from manifold3d import Manifold
 
 from grasptypes.objects import sections, solids
-from grasptypes.objects.parts import Material, ObjectModel, Part
-
-Points = tuple[tuple[float, float], ...]
+from grasptypes.objects.parts import Material, ObjectModel, Part, Size
 
 MELAMINE = Material((0.10, 0.33, 0.55, 1.0), roughness=0.35)
 MELAMINE_RIM = Material((0.93, 0.91, 0.84, 1.0), roughness=0.35)
@@ -17,21 +13,7 @@ EARTHENWARE = Material((0.74, 0.13, 0.12, 1.0), roughness=0.3)
 CLEAR_GLASS = Material((0.74, 0.86, 0.92, 0.55), roughness=0.08)
 
 
-@dataclass(frozen=True)
-class Bowl:
-    """Bowl between two spheres on a solid foot; heights are above the frame's origin."""
-
-    rim_height_m: float = 0.0355
-    outer_radius_m: float = 0.0743
-    inner_radius_m: float = 0.0732
-    inner_centre_height_m: float = 0.0477
-    foot_radius_m: float = 0.0370
-    foot_height_m: float = -0.0295
-    bottom_height_m: float = -0.0411
-    rim_band_m: float = 0.006
-
-
-def bowl(size: Bowl = Bowl()) -> ObjectModel:
+def bowl(size: Size) -> ObjectModel:
     """Build the bowl with parts rim, wall and foot."""
     start = -np.degrees(np.arccos(size.foot_radius_m / size.outer_radius_m))
     end = -np.degrees(
@@ -52,33 +34,7 @@ def bowl(size: Bowl = Bowl()) -> ObjectModel:
     return ObjectModel(parts, density_kg_m3=1500.0)
 
 
-@dataclass(frozen=True)
-class Cup:
-    """Tumbler without a handle; profiles are rows of radius, height from the floor to the rim."""
-
-    outer_profile_m: Points = (
-        (0.0280, -0.0492),
-        (0.0304, -0.0450),
-        (0.0319, -0.0400),
-        (0.0339, -0.0300),
-        (0.0367, -0.0100),
-        (0.0388, 0.0100),
-        (0.0421, 0.0503),
-    )
-    inner_profile_m: Points = (
-        (0.0225, -0.0457),
-        (0.0242, -0.0440),
-        (0.0260, -0.0400),
-        (0.0288, -0.0300),
-        (0.0322, -0.0100),
-        (0.0348, 0.0100),
-        (0.0388, 0.0503),
-    )
-    rim_band_m: float = 0.006
-    base_band_m: float = 0.010
-
-
-def cup(size: Cup = Cup()) -> ObjectModel:
+def cup(size: Size) -> ObjectModel:
     """Build the cup with parts rim, wall and base."""
     outer = sections.chain(
         [(0.0, size.outer_profile_m[0][1])], sections.smooth_curve(size.outer_profile_m)
@@ -99,27 +55,7 @@ def cup(size: Cup = Cup()) -> ObjectModel:
     return ObjectModel(parts, density_kg_m3=910.0)
 
 
-@dataclass(frozen=True)
-class Mug:
-    """Straight mug with a half-ring handle on the +x side."""
-
-    axis_x_m: float = -0.0036
-    outer_radius_m: float = 0.0411
-    inner_radius_m: float = 0.0365
-    bottom_height_m: float = -0.0483
-    floor_height_m: float = -0.0356
-    rim_height_m: float = 0.0563
-    edge_radius_m: float = 0.0023
-    rim_band_m: float = 0.006
-    base_band_m: float = 0.008
-    handle_centre_height_m: float = 0.0047
-    handle_half_height_m: float = 0.0394
-    handle_reach_m: float = 0.0280
-    handle_half_width_m: float = 0.0057
-    handle_root_half_thickness_m: float = 0.0072
-
-
-def mug(size: Mug = Mug()) -> ObjectModel:
+def mug(size: Size) -> ObjectModel:
     """Build the mug with parts rim, wall, base and handle."""
     edge, radius = size.edge_radius_m, size.outer_radius_m
     outer = sections.chain(
@@ -146,7 +82,7 @@ def mug(size: Mug = Mug()) -> ObjectModel:
     return ObjectModel(parts, density_kg_m3=1900.0)
 
 
-def _mug_handle(size: Mug) -> Manifold:
+def _mug_handle(size: Size) -> Manifold:
     """Sweep half an ellipse, thicker at its ends, and cut it off inside the wall."""
     turn = np.radians(np.linspace(-100, 100, 49))
     wall_m = size.axis_x_m + size.outer_radius_m
@@ -166,31 +102,7 @@ def _mug_handle(size: Mug) -> Manifold:
     return swept - keep_out
 
 
-@dataclass(frozen=True)
-class WineGlass:
-    """Wine glass; the bowl's outer profile has rows of radius, height from the stem to the rim."""
-
-    foot_radius_m: float = 0.0320
-    bottom_height_m: float = -0.1027
-    foot_thickness_m: float = 0.0053
-    stem_radius_m: float = 0.0063
-    cavity_height_m: float = -0.0352
-    cavity_floor_radius_m: float = 0.0030
-    outer_profile_m: Points = (
-        (0.0063, -0.0352),
-        (0.0104, -0.0282),
-        (0.0178, -0.0200),
-        (0.0249, -0.0100),
-        (0.0302, 0.0000),
-        (0.0334, 0.0100),
-        (0.0354, 0.0290),
-        (0.0341, 0.0500),
-        (0.0307, 0.0693),
-    )
-    wall_thickness_m: float = 0.00165
-
-
-def wine_glass(size: WineGlass = WineGlass()) -> ObjectModel:
+def wine_glass(size: Size) -> ObjectModel:
     """Build the wine glass with parts bowl, stem and base."""
     curve = sections.smooth_curve(size.outer_profile_m, samples=64)
     hollow = sections.offset_curve(curve, size.wall_thickness_m)

@@ -4,14 +4,15 @@ import numpy as np
 import pytest
 from tests.unit.settings import PARAMS
 
-from grasptypes.objects import collision, solids, vessels
+from grasptypes.objects import collision, solids
+from grasptypes.objects.catalogue import build
 
 RESOLUTION = PARAMS.objects.resolution
 
 
 @pytest.fixture(scope="module")
 def mug_hulls():
-    return collision.convex_parts([part.solid for part in vessels.mug().parts], RESOLUTION)
+    return collision.convex_parts([part.solid for part in build("mug").parts], RESOLUTION)
 
 
 def test_hulls_are_convex_few_and_light(mug_hulls):
@@ -30,7 +31,7 @@ def test_fingers_fit_through_the_handle_and_into_the_mug(mug_hulls):
 
 
 def test_hulls_cover_the_mug(mug_hulls):
-    mug = solids.union(*(part.solid for part in vessels.mug().parts))
+    mug = solids.union(*(part.solid for part in build("mug").parts))
     missing = mug - solids.union(*mug_hulls)
     assert missing.volume() < 0.05 * mug.volume()
 

@@ -5,7 +5,7 @@ import pytest
 from tests.unit.settings import RAW
 
 from grasptypes.objects import solids
-from grasptypes.objects.catalogue import OBJECTS
+from grasptypes.objects.catalogue import OBJECTS, build
 from grasptypes.objects.parts import Material, ObjectModel, Part
 from grasptypes.objects.variants import all_objects, base_of, variant_names, variant_of
 from grasptypes.objects.variation import Variation, build_variant, vary
@@ -67,7 +67,7 @@ def test_every_number_does_what_it_says():
 
 @pytest.mark.parametrize("name", OBJECTS)
 def test_variants_are_whole_in_range_and_come_back_the_same(name):
-    base, varied = OBJECTS[name](), build_variant(f"{name}_v01", RANGES, 0)
+    base, varied = build(name), build_variant(f"{name}_v01", RANGES, 0)
     solid = union(varied)
     assert len(solid.decompose()) == 1
     assert solid.genus() <= union(base).genus()
