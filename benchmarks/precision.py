@@ -17,10 +17,10 @@ from grasptypes.predictors.backbone import load_backbone
 from grasptypes.predictors.examples import assemble
 from grasptypes.predictors.features import encodings, extract, read_pictures
 from grasptypes.predictors.folds import split
+from grasptypes.predictors.members import members_by_group
 from grasptypes.predictors.metrics import METRICS
 from grasptypes.predictors.predictor import VARIANTS
 from grasptypes.predictors.protocol import try_splits
-from grasptypes.predictors.training import members_by_group
 from grasptypes.predictors.weights import find_weights
 from grasptypes.settings.params import Params, read_params
 

@@ -12,8 +12,9 @@ import numpy as np
 import torch
 from benchmarks.figures import Figure, seconds
 
+from grasptypes.predictors.members import members_by_group
 from grasptypes.predictors.problem import read_problem
-from grasptypes.predictors.training import fit, members_by_group
+from grasptypes.predictors.training import fit
 from grasptypes.settings.params import Params
 
 

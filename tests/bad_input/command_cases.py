@@ -77,7 +77,7 @@ CASES = [
     asked("unknown labels", (*ASK, "--labels", "../.."), "--labels: ../..", "simulated, published"),
     asked("an untrained model", ASK, f"{MODEL}/predictor.safetensors", "snakemake -j2"),
     asked(
-        "a damaged card", ASK, "predictor.json", "not a predictor's card", safetensors=b"", json="{"
+        "a damaged card", ASK, "predictor.json", "is not JSON", safetensors=b"", json="{"
     ),
     Case(
         "command",

@@ -95,9 +95,11 @@ def small_predictor(folder: Path, weights: Weights, model: str = "task_vector") 
     tasks = len(SHIFTS) if VARIANTS[model].task_vector else 0
     sizes = Architecture(KINDS["mobilenet_v2"].features, tasks, (8, 8, 8), 6)
     card = ModelCard(
-        model, "simulated", TYPES, tuple(SHIFTS), SHIFTS, sizes,
-        weights.backbone, weights.name, 32, "none", "bf16",
-    )  # fmt: skip
+        **{"model": model, "labels": "simulated", "types": TYPES, "tasks": tuple(SHIFTS)},
+        **{"colour_shifts": SHIFTS, "architecture": sizes, "finetune": "none"},
+        **{"backbone": weights.backbone, "weights": weights.name, "input_px": 32},
+        precision="bf16",
+    )
     heads = BatchedMLP(sizes, [("a",)])
     with torch.no_grad():
         heads.weights[-1] *= 30

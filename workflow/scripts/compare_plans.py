@@ -17,9 +17,9 @@ from grasptypes.planning.plan_comparison import (
     Case,
     compare,
     text,
+    unseen_types,
 )
-from grasptypes.planning.planner import PlanningContext
-from grasptypes.planning.unseen_types import unseen_types
+from grasptypes.planning.sessions import PlanningContext
 from grasptypes.predictors.prediction import spelled
 from grasptypes.predictors.problem import read_problem
 from grasptypes.settings.params import Params

@@ -9,7 +9,7 @@ from grasptypes.files import write_npz
 from grasptypes.jobs import job
 from grasptypes.predictors.backbone import load_backbone
 from grasptypes.predictors.features import encodings, extract, read_pictures
-from grasptypes.predictors.learning_inputs import read_backbone_record, recorded_weights
+from grasptypes.predictors.weights import BackboneRecord
 from grasptypes.settings.predictors import FeatureSettings
 
 
@@ -21,8 +21,8 @@ def extract_features(
     settings: FeatureSettings,
 ) -> None:
     """Write one array per encoding, (views, F) float32, to `target`."""
-    known = read_backbone_record(record)
-    backbone = load_backbone(recorded_weights(known), known.input_px)
+    known = BackboneRecord.read(record)
+    backbone = load_backbone(known.find_weights(), known.input_px)
     shifts = encodings(tasks)
     features = extract(
         backbone, read_pictures(pictures), shifts, settings.precision, settings.batch

@@ -3,7 +3,7 @@
 import torch
 
 from grasptypes.jobs import job
-from grasptypes.predictors.leaving_out import members_by_object
+from grasptypes.predictors.members import members_by_object
 from grasptypes.predictors.problem import LearningProblem, read_problem
 from grasptypes.predictors.protocol import try_splits
 from grasptypes.predictors.scoring import METRIC_SCHEMA, with_source

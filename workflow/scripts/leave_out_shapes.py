@@ -10,10 +10,11 @@ import torch
 from grasptypes.files import read_npz
 from grasptypes.jobs import job
 from grasptypes.labels.samples import read_samples
+from grasptypes.predictors.features import read_inputs
 from grasptypes.predictors.generalisation import TRIAL_SCHEMA, Inputs, VariantInputs, try_trial
-from grasptypes.predictors.learning_inputs import read_backbone_record, read_inputs
 from grasptypes.predictors.predictor_files import FROZEN
 from grasptypes.predictors.scoring import with_source
+from grasptypes.predictors.weights import BackboneRecord
 from grasptypes.settings.predictors import PredictorSettings, VariantTrial
 from grasptypes.tables import write_table
 
@@ -36,7 +37,7 @@ def leave_out_shapes(
     seed: int,
 ) -> None:
     """Write the metrics of the model `name` (labels, model), one row per trial, object and seed."""
-    record = read_backbone_record(inputs["backbone"])
+    record = BackboneRecord.read(inputs["backbone"])
     known = VariantInputs(
         read_inputs(inputs["objects"], settings["tasks"]),
         read_variants(inputs["variants"]),

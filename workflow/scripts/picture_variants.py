@@ -15,7 +15,7 @@ from grasptypes.objects.variants import variant_names
 from grasptypes.objects.variation import build_variant
 from grasptypes.predictors.backbone import load_backbone
 from grasptypes.predictors.features import encodings, extract
-from grasptypes.predictors.learning_inputs import read_backbone_record, recorded_weights
+from grasptypes.predictors.weights import BackboneRecord
 from grasptypes.renders.renderer import Camera
 from grasptypes.renders.scene import Part, load_parts
 from grasptypes.settings.objects import VariationRanges
@@ -36,8 +36,8 @@ def picture_variants(
     record: str, target: str, name: str, settings: Mapping[str, Any], seed: int
 ) -> None:
     """Write one array per variant and encoding, (views, F) float32, named `mug_v01/use`."""
-    known = read_backbone_record(record)
-    backbone = load_backbone(recorded_weights(known), known.input_px)
+    known = BackboneRecord.read(record)
+    backbone = load_backbone(known.find_weights(), known.input_px)
     shifts, chosen = encodings(settings["tasks"]), settings["features"]
     features = {}
     with Camera(CameraSettings.check(settings["renders"])) as camera:

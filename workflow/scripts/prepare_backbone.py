@@ -5,8 +5,7 @@ from pathlib import Path
 from grasptypes.errors import InputError
 from grasptypes.jobs import job
 from grasptypes.predictors.backbone import load_backbone
-from grasptypes.predictors.learning_inputs import write_backbone_record
-from grasptypes.predictors.weights import WEIGHTS_VARIABLE, find_weights
+from grasptypes.predictors.weights import WEIGHTS_VARIABLE, BackboneRecord, find_weights
 
 
 def prepare_backbone(record: str | Path, chosen: str, timeout_s: float, input_px: int) -> str:
@@ -23,7 +22,7 @@ def prepare_backbone(record: str | Path, chosen: str, timeout_s: float, input_px
         )
         raise InputError(WEIGHTS_VARIABLE, "", message)
     load_backbone(weights, input_px)
-    write_backbone_record(weights, input_px, record)
+    BackboneRecord.of(weights, input_px).write(record)
     return f"backbone {weights.backbone}, weights {weights.name} from {weights.source}"
 
 

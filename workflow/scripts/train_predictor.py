@@ -5,6 +5,7 @@ from collections.abc import Mapping
 import torch
 
 from grasptypes.jobs import job
+from grasptypes.predictors.members import members_by_group
 from grasptypes.predictors.predictor_files import write_predictor
 from grasptypes.predictors.problem import LearningProblem, read_problem
 from grasptypes.predictors.protocol import train_final, try_splits
@@ -14,7 +15,6 @@ from grasptypes.predictors.scoring import (
     PREDICTION_SCHEMA,
     with_source,
 )
-from grasptypes.predictors.training import members_by_group
 from grasptypes.settings.predictors import PredictorSettings
 from grasptypes.tables import write_table
 

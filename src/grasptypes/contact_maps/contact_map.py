@@ -8,7 +8,7 @@ object; the population's map is the mean over as many people as ContactDB record
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import trimesh
@@ -26,6 +26,8 @@ from grasptypes.settings.contact_maps import ContactMapSettings
 # Within about 70 degrees of the closing direction, a surface resists the digit that presses on it.
 OPPOSED_COSINE = 0.35
 GOLDEN_RATIO = (5**0.5 - 1) / 2
+# Fields of a contact map with one row per session, apart from the contacts themselves.
+BY_SESSION = ("style", "grip", "part", "approach", "closing", "centre_m", "height", "hand_length_m")
 
 
 @dataclass(frozen=True)
@@ -63,6 +65,11 @@ class ContactMap:
     centre_m: NDArray[np.float32]
     height: NDArray[np.float32]
     hand_length_m: NDArray[np.float32]
+
+    def session(self, index: int) -> ContactMap:
+        """The map with only one of its sessions."""
+        row, names = slice(index, index + 1), (*BY_SESSION, "sessions")
+        return replace(self, **{name: getattr(self, name)[row] for name in names})
 
 
 @dataclass(frozen=True)

@@ -7,12 +7,11 @@ from pathlib import Path
 
 import numpy as np
 
-from grasptypes.contact_maps.contact_map import ContactMap
+from grasptypes.contact_maps.contact_map import BY_SESSION, ContactMap
 from grasptypes.errors import InputError
 from grasptypes.files import read_npz, write_npz
 
-# Fields with one row per session, and with one row per surface point.
-BY_SESSION = ("style", "grip", "part", "approach", "closing", "centre_m", "height", "hand_length_m")
+# Fields with one row per surface point.
 BY_POINT = ("normals", "part_index", "probability")
 
 

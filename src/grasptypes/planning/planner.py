@@ -1,51 +1,28 @@
-"""Grasps for one object and task: searched session by session, tested, labelled and ranked."""
+"""What users hold of planning: the planner, their request, and the plan."""
 
 from __future__ import annotations
 
-import signal
-from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import ProcessPoolExecutor
-from dataclasses import dataclass, replace
-from functools import partial
-from multiprocessing import active_children, get_context
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-import numpy as np
 import pandas as pd
 
-from grasptypes.contact_maps.contact_map import ContactMap, MapTask
+from grasptypes.contact_maps.contact_map import MapTask
 from grasptypes.errors import InputError
-from grasptypes.labels.dataset import label_grasps
 from grasptypes.labels.grasp import Grasp, grasps_of
 from grasptypes.labels.grasp_type import GRASP_TYPES
 from grasptypes.objects.object_geometry import ObjectGeometry
-from grasptypes.planning.plan_contacts import MeasuredMap, PlanContacts, grips_of, plan_contacts
+from grasptypes.planning.plan_contacts import MeasuredMap, grips_of, plan_contacts
+from grasptypes.planning.sessions import PlanningContext, plan_sessions
 from grasptypes.renders.mesh_views import MESH_WORD
-from grasptypes.seeds import seed
 from grasptypes.settings.params import Params, checkout_params
-from grasptypes.synthesis.trials import SynthesisTask, synthesize
 
 if TYPE_CHECKING:
     from grasptypes.predictors.prediction import Predictor
 
 URDF = "assets/barrett_hand/barrett_hand.urdf"
-
-
-@dataclass(frozen=True)
-class PlanningContext:
-    """Shared by all sessions of a plan.
-
-    Attributes:
-        word: name of the object in the keys of all random draws.
-        urdf: URDF of the hand.
-    """
-
-    geometry: ObjectGeometry
-    task: str
-    word: str
-    urdf: Path
-    params: Params
 
 
 class GraspTypeRequest(NamedTuple):
@@ -208,102 +185,3 @@ def known_type(text: str) -> str:
     if kind not in allowed:
         raise InputError("--type", text, f"unknown; allowed: {', '.join(allowed)}")
     return kind
-
-
-def plan_sessions(
-    context: PlanningContext,
-    contacts: PlanContacts,
-    types: Sequence[str],
-    jobs: int = 1,
-    tell: Callable[[str], None] = lambda line: None,
-) -> tuple[pd.DataFrame, pd.DataFrame]:
-    """Attempts and ranked grasps of the contacts' sessions, see `Plan`.
-
-    Args:
-        types: requested grasp types, which rank before all others.
-        jobs: number of processes.
-        tell: called with a line for every session.
-    """
-    work, last = partial(_search, context, contacts), contacts.numbers[-1]
-    found = []
-    for attempts in _each(work, len(contacts.numbers), jobs):
-        found.append(attempts)
-        number, grip = attempts.session.iloc[0], attempts.grip.iloc[0]
-        outcome = "holds" if attempts.valid.any() else attempts.reason.iloc[0]
-        tell(f"session {number} of {last} ({grip}): {outcome}")
-    table = pd.concat(found, ignore_index=True)
-    grid, settings = context.geometry.distance_grid, context.params.grasp_types
-    labelled = choose(label_grasps(table, grid, settings.contacts, settings.thresholds), types)
-    return labelled, ranked(labelled[labelled.chosen], types)
-
-
-def choose(labelled: pd.DataFrame, types: Sequence[str]) -> pd.DataFrame:
-    """Labelled attempts with the column `chosen` set again, once per session.
-
-    A valid grasp of a requested type takes precedence over the one chosen by the synthesis, which
-    does not know the request.
-    """
-    wanted = labelled.valid & labelled.grasp_type.isin(types)
-    keys = {"other": ~wanted, "passed": ~labelled.chosen}
-    order = labelled.assign(**keys).sort_values(["session", "other", "passed", "energy"])
-    return labelled.assign(chosen=labelled.index.isin(order.drop_duplicates("session").index))
-
-
-def ranked(labelled: pd.DataFrame, types: Sequence[str]) -> pd.DataFrame:
-    """Labelled grasps, best first: valid ones of a requested type, other valid ones, then the rest.
-
-    Each group is sorted by energy. `pose_index` keeps the position among the session's tries.
-    """
-    keys = {"failed": ~labelled.valid, "other": ~labelled.grasp_type.isin(types)}
-    order = labelled.assign(**keys).sort_values(["failed", "other", "energy", "session"]).index
-    table = labelled.loc[order].reset_index(drop=True)
-    table["pose_index"], table["rank"] = table["rank"], np.arange(len(table))
-    table["hand_configuration"] = [
-        [float(place), *numbers[1:]]
-        for place, numbers in zip(table["rank"], table.hand_configuration, strict=True)
-    ]
-    return table
-
-
-def _each(work: Callable[[int], pd.DataFrame], count: int, jobs: int) -> Iterator[pd.DataFrame]:
-    """Results for 0 to count - 1, in order, as soon as they are available.
-
-    On Ctrl-C, which the terminal sends to every process, the workers end silently.
-    """
-    if jobs == 1:
-        yield from map(work, range(count))
-        return
-    # Not a fork, which would copy an open OpenGL context and torch's threads.
-    with ProcessPoolExecutor(jobs, mp_context=get_context("spawn")) as pool:
-        try:
-            # Workers inherit the mask of the thread that starts them, here all.
-            signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGINT])
-            try:
-                results = pool.map(work, range(count))
-            finally:
-                signal.pthread_sigmask(signal.SIG_UNBLOCK, [signal.SIGINT])
-            yield from results
-        except KeyboardInterrupt:
-            for worker in active_children():
-                worker.terminate()
-            raise
-
-
-def _search(context: PlanningContext, contacts: PlanContacts, index: int) -> pd.DataFrame:
-    """Attempts of one session, independent of the others, with its grip and tries."""
-    contact_map, number, params = contacts.contact_map, contacts.numbers[index], context.params
-    session_seed = seed("plan", context.word, context.task, number, params.seed)
-    task = SynthesisTask(
-        context.word, context.task, context.geometry, _one(contact_map, index), session_seed
-    )
-    _, attempts = synthesize(task, context.urdf, params.synthesis, params.physics)
-    added = {"grip": str(contact_map.grip[index]), "tries": len(attempts)}
-    return attempts.assign(object=context.geometry.name, session=number, **added)
-
-
-def _one(contact_map: ContactMap, index: int) -> ContactMap:
-    """The contact map with only one of its sessions."""
-    of_session = ("sessions", "style", "grip", "part", "approach", "closing", "centre_m", "height")
-    names = (*of_session, "hand_length_m")
-    row = slice(index, index + 1)
-    return replace(contact_map, **{name: getattr(contact_map, name)[row] for name in names})

@@ -8,7 +8,7 @@ import numpy as np
 import pandas as pd
 
 from grasptypes.labels.samples import labels_of
-from grasptypes.predictors.leaving_out import members_by_object
+from grasptypes.predictors.members import members_by_object
 from grasptypes.predictors.metrics import (
     METRICS,
     angular_similarity,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import io
 import zipfile
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 
 import numpy as np
@@ -12,6 +12,7 @@ import torch
 from PIL import Image, UnidentifiedImageError
 
 from grasptypes.errors import InputError
+from grasptypes.files import read_npz
 from grasptypes.predictors.backbone import Backbone
 
 NO_TASK = "none"  # the encoding without a task
@@ -55,6 +56,28 @@ def read_pictures(path: str | Path) -> np.ndarray:
     if not pictures:
         raise InputError(path, "", "contains no images")
     return np.stack(pictures)
+
+
+def read_inputs(
+    paths: Iterable[str | Path], tasks: Mapping[str, int]
+) -> dict[str, dict[str, np.ndarray]]:
+    """Object to encoding to one input per view, from files named after their objects.
+
+    Args:
+        paths: features (.npz), or archives of images (.zip) that are encoded here.
+        tasks: colour shift of each task, in the order of the task vector.
+
+    Returns:
+        arrays (V, F) float32 or (V, H, W, 3) uint8.
+    """
+    return {path.stem: _read_encodings(path, tasks) for path in map(Path, paths)}
+
+
+def _read_encodings(path: Path, tasks: Mapping[str, int]) -> dict[str, np.ndarray]:
+    if path.suffix == ".npz":
+        return read_npz(path)
+    pictures = read_pictures(path)
+    return {name: shift_colours(pictures, shift) for name, shift in encodings(tasks).items()}
 
 
 def extract(

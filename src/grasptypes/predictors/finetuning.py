@@ -11,8 +11,8 @@ import torch
 
 from grasptypes.predictors.backbone import Backbone, thaw
 from grasptypes.predictors.examples import Examples
+from grasptypes.predictors.members import Member
 from grasptypes.predictors.predictor import Architecture, BatchedMLP, loss
-from grasptypes.predictors.training import Member
 from grasptypes.seeds import rng
 from grasptypes.settings.predictors import PredictorSettings
 

@@ -12,7 +12,7 @@ import pandera.pandas as pa
 from grasptypes.objects.variants import base_of, variant_names
 from grasptypes.predictors.ceilings import constant_of_others
 from grasptypes.predictors.examples import Examples, assemble
-from grasptypes.predictors.leaving_out import members_by_object
+from grasptypes.predictors.members import members_by_object
 from grasptypes.predictors.predictor import VARIANTS
 from grasptypes.predictors.protocol import try_splits
 from grasptypes.predictors.scoring import METRIC_SCHEMA, SHORT

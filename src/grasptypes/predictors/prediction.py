@@ -19,7 +19,6 @@ from grasptypes.predictors.predictor_files import (
     ModelCard,
     PredictorNetwork,
     load_predictor,
-    read_card,
 )
 from grasptypes.predictors.weights import find_weights
 from grasptypes.renders.mesh_views import mesh_views, views
@@ -125,7 +124,7 @@ class Predictor:
         params = params or checkout_params(folder)
         chosen = labels or params.predict.labels, model or params.predict.model
         tensors, card = predictor_paths(folder, *chosen)
-        read_card(card)  # report a damaged card before missing weights
+        ModelCard.read(card)  # report a damaged card before missing weights
         return cls(load_predictor(tensors, card, find_weights(timeout_s=0)), params)
 
     @property

@@ -2,11 +2,8 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import safetensors
@@ -14,17 +11,18 @@ import safetensors.torch
 import torch
 
 from grasptypes.errors import InputError
-from grasptypes.files import write_bytes, write_json
+from grasptypes.files import write_bytes
 from grasptypes.predictors.backbone import Backbone, load_backbone
 from grasptypes.predictors.features import for_inference, forward, shift_colours
 from grasptypes.predictors.predictor import VARIANTS, Architecture, BatchedMLP
 from grasptypes.predictors.weights import WEIGHTS_VARIABLE, Weights
+from grasptypes.records import Record
+from grasptypes.settings.base import Many
 
 FROZEN = "none"
 
 
-@dataclass(frozen=True)
-class ModelCard:
+class ModelCard(Record):
     """Everything needed to use a predictor, apart from its tensors.
 
     Attributes:
@@ -44,9 +42,9 @@ class ModelCard:
 
     model: str
     labels: str
-    types: tuple[str, ...]
-    tasks: tuple[str, ...]
-    colour_shifts: Mapping[str, int]
+    types: Many[str]
+    tasks: Many[str]
+    colour_shifts: dict[str, int]
     architecture: Architecture
     backbone: str
     weights: str
@@ -110,23 +108,7 @@ def write_predictor(
     if backbone is not None:
         state |= {f"backbone.{name}": tensor for name, tensor in backbone.state_dict().items()}
     write_bytes(tensors, safetensors.torch.save({k: v.contiguous() for k, v in state.items()}))
-    write_json(described, asdict(card))
-
-
-def read_card(described: str | Path) -> ModelCard:
-    """Read a predictor's card.
-
-    Raises:
-        InputError: the file is not a card.
-    """
-    try:
-        content: dict[str, Any] = json.loads(Path(described).read_text(encoding="utf-8"))
-        sizes = content.pop("architecture")
-        sizes["hidden"] = tuple(sizes["hidden"])
-        content |= {key: tuple(content[key]) for key in ("types", "tasks")}
-        return ModelCard(architecture=Architecture(**sizes), **content)
-    except (OSError, ValueError, KeyError, TypeError) as error:
-        raise InputError(described, "", f"not a predictor's card: {error}") from error
+    card.write(described)
 
 
 def load_predictor(
@@ -140,7 +122,7 @@ def load_predictor(
     Raises:
         InputError: the file is damaged, or the weights are different.
     """
-    card = read_card(described)
+    card = ModelCard.read(described)
     same = card.weights.endswith(f"({weights.sha256[:8]})")  # regardless of the file name
     if card.backbone != weights.backbone or not same:
         raise InputError(

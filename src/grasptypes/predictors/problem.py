@@ -9,15 +9,11 @@ from typing import Any
 from grasptypes.labels.samples import TYPES, read_samples
 from grasptypes.predictors.backbone import Backbone, load_backbone
 from grasptypes.predictors.examples import Examples, assemble
+from grasptypes.predictors.features import read_inputs
 from grasptypes.predictors.folds import FOLD_SCHEMA
-from grasptypes.predictors.learning_inputs import (
-    BackboneRecord,
-    read_backbone_record,
-    read_inputs,
-    recorded_weights,
-)
 from grasptypes.predictors.predictor import VARIANTS, Architecture
 from grasptypes.predictors.predictor_files import ModelCard
+from grasptypes.predictors.weights import BackboneRecord
 from grasptypes.settings.predictors import PredictorSettings
 from grasptypes.tables import read_table
 
@@ -85,10 +81,10 @@ def read_problem(
         InputError: a file is damaged or inconsistent with the others.
     """
     labels, model = name
-    record = read_backbone_record(files["backbone"])
+    record = BackboneRecord.read(files["backbone"])
     inputs, folds = read_inputs(files["inputs"], tasks), read_table(files["folds"], FOLD_SCHEMA)
     # Not every label source has labels for every object in the folds.
     folds = folds[folds["object"].isin(inputs)]
     examples = assemble(VARIANTS[model], inputs, read_samples(files["samples"]), folds, list(tasks))
-    backbone = None if settings.frozen else load_backbone(recorded_weights(record), record.input_px)
+    backbone = None if settings.frozen else load_backbone(record.find_weights(), record.input_px)
     return LearningProblem(labels, model, tasks, examples, settings, record, backbone)

@@ -11,9 +11,10 @@ import pandas as pd
 from grasptypes.predictors.backbone import Backbone
 from grasptypes.predictors.examples import Examples
 from grasptypes.predictors.finetuning import fine_tune, predict_pictures
+from grasptypes.predictors.members import Member
 from grasptypes.predictors.predictor import BatchedMLP
 from grasptypes.predictors.scoring import curve_table, score
-from grasptypes.predictors.training import Member, fit, predict
+from grasptypes.predictors.training import fit, predict
 from grasptypes.settings.predictors import PredictorSettings
 
 

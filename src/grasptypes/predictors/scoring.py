@@ -10,10 +10,10 @@ import pandera.pandas as pa
 
 from grasptypes.labels.samples import TYPES
 from grasptypes.predictors.examples import Examples
-from grasptypes.predictors.learning_inputs import BackboneRecord
+from grasptypes.predictors.members import Member
 from grasptypes.predictors.metrics import METRICS, evaluate
 from grasptypes.predictors.predictor import VARIANTS
-from grasptypes.predictors.training import Member
+from grasptypes.predictors.weights import BackboneRecord
 
 # Prefixes of the columns of a table, by measure.
 SHORT = {

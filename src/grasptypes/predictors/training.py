@@ -11,42 +11,12 @@ import torch
 from torch import Tensor
 
 from grasptypes.predictors.examples import Examples
+from grasptypes.predictors.members import Member
 from grasptypes.predictors.predictor import Architecture, BatchedMLP, loss
 from grasptypes.seeds import rng
 from grasptypes.settings.predictors import PredictorSettings
 
 LOGGER = logging.getLogger("grasptypes")
-
-
-@dataclass(frozen=True)
-class Member:
-    """One head to train: its training and test examples, and its key.
-
-    Attributes:
-        group: name of the split, for example the fold; members of a group share their examples.
-        seed: number of the repetition.
-        train: (n,) rows of the examples.
-        test: (m,) rows of the examples; may be empty.
-    """
-
-    group: str
-    seed: int
-    train: np.ndarray
-    test: np.ndarray
-
-
-def members_by_group(groups: Sequence[object], seeds: int) -> list[Member]:
-    """One member per group and seed, tested on the group and trained on all others.
-
-    Args:
-        groups: (N,) group of every example, such as its fold or object.
-    """
-    column = np.asarray(groups)
-    return [
-        Member(str(group), k, np.flatnonzero(column != group), np.flatnonzero(column == group))
-        for k in range(seeds)
-        for group in np.unique(column)
-    ]
 
 
 def fit(

@@ -11,6 +11,7 @@ from pathlib import Path
 from grasptypes.downloads import DownloadError, download
 from grasptypes.errors import InputError
 from grasptypes.files import file_sha256
+from grasptypes.records import Record
 
 LOGGER = logging.getLogger("grasptypes")
 WEIGHTS_VARIABLE = "GRASPTYPES_BACKBONE_WEIGHTS"
@@ -41,6 +42,40 @@ class Weights:
     def name(self) -> str:
         """File name and prefix of the checksum, as shown in tables and runs."""
         return f"{self.path.name} ({self.sha256[:8]})"
+
+
+class BackboneRecord(Record):
+    """The backbone in use, as shown in every table, run and figure.
+
+    Attributes:
+        backbone: name of the network.
+        weights: name and checksum of its weights, without their path on this machine.
+        sha256: checksum of the weights file.
+        input_px: size of its input image.
+    """
+
+    backbone: str
+    weights: str
+    sha256: str
+    input_px: int
+
+    @classmethod
+    def of(cls, weights: Weights, input_px: int) -> BackboneRecord:
+        """The record of weights that were found."""
+        found = {"backbone": weights.backbone, "weights": weights.name, "sha256": weights.sha256}
+        return cls(**found, input_px=input_px)
+
+    def find_weights(self) -> Weights:
+        """The recorded weights on this machine, without network access.
+
+        Raises:
+            InputError: the weights found here are not the recorded ones.
+        """
+        weights = find_weights(timeout_s=0)
+        if weights.sha256 != self.sha256:
+            message = f"is not the recorded {self.weights} of {self.backbone}"
+            raise InputError(weights.path, "", f"{message}; remove data/backbone.json to use it")
+        return weights
 
 
 def chosen_weights() -> str:

@@ -16,9 +16,9 @@ import pandas as pd
 from grasptypes.errors import InputError
 from grasptypes.files import file_sha256
 from grasptypes.predictors.features import read_pictures
-from grasptypes.predictors.learning_inputs import read_backbone_record, recorded_weights
 from grasptypes.predictors.metrics import METRICS
 from grasptypes.predictors.scoring import CURVE_SCHEMA, METRIC_SCHEMA
+from grasptypes.predictors.weights import BackboneRecord
 from grasptypes.runs.tracking import RunRecord, Store, TrainedModel
 from grasptypes.tables import read_table
 
@@ -48,7 +48,7 @@ def publish(
     """
     tags, keys, weights = version_tags(data), {}, None
     try:
-        weights = recorded_weights(read_backbone_record(data["backbone"][0]))
+        weights = BackboneRecord.read(data["backbone"][0]).find_weights()
     except InputError as error:
         logger.warning("runs are published without their predictors: %s", error)
     for model in models:

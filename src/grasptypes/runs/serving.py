@@ -12,7 +12,7 @@ from mlflow.protos.databricks_pb2 import INVALID_PARAMETER_VALUE
 from mlflow.pyfunc.model import PythonModel, PythonModelContext
 
 from grasptypes.errors import InputError
-from grasptypes.predictors.predictor_files import load_predictor, read_card
+from grasptypes.predictors.predictor_files import ModelCard, load_predictor
 from grasptypes.predictors.weights import weights_file
 from grasptypes.renders.photos import padded
 
@@ -26,7 +26,7 @@ class GraspTypePredictor(PythonModel):
     def load_context(self, context: PythonModelContext) -> None:
         """Read the predictor from the artifacts."""
         artifacts = {name: Path(path) for name, path in context.artifacts.items()}
-        backbone = read_card(artifacts["card"]).backbone
+        backbone = ModelCard.read(artifacts["card"]).backbone
         weights = weights_file(backbone, "model", artifacts["weights"])
         self._predictor = load_predictor(artifacts["tensors"], artifacts["card"], weights)
 

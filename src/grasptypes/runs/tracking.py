@@ -27,7 +27,7 @@ from sqlalchemy.exc import SQLAlchemyError
 import grasptypes.errors
 from grasptypes.errors import InputError
 from grasptypes.files import file_sha256
-from grasptypes.predictors.predictor_files import read_card
+from grasptypes.predictors.predictor_files import ModelCard
 from grasptypes.settings.commands import TrackingSettings
 
 KEY_TAG = "grasptypes.key"
@@ -161,7 +161,7 @@ class Store:
         mine = f"source_run_id = '{run}'"
         for old in self._client.search_logged_models([self._experiment], filter_string=mine):
             self._client.delete_logged_model(old.model_id)
-        card = read_card(model.card)
+        card = ModelCard.read(model.card)
         names, shape = ("probability", "sigmoid"), (-1, len(card.types))
         outputs: list[ColSpec | TensorSpec] = [
             TensorSpec(np.dtype(np.float32), shape, name) for name in names

@@ -108,14 +108,14 @@ class Settings(BaseModel):
         try:
             return cls.model_validate(content)
         except ValidationError as error:
-            raise _explained(error, cls, path) from error
+            raise explained(error, cls, path) from error
 
     def changed(self, **values: Any) -> Self:
         """The same settings with other values, which are not checked."""
         return self.model_copy(update=values)
 
 
-def _explained(error: ValidationError, section: type[Settings], path: str | Path) -> InputError:
+def explained(error: ValidationError, section: type[Settings], path: str | Path) -> InputError:
     """The first mistake as one line; unknown keys are reported before missing ones."""
     first = min(error.errors(), key=lambda found: found["type"] != "extra_forbidden")
     keys = [part for part in first["loc"] if part != "[key]"]
@@ -129,6 +129,8 @@ def _explained(error: ValidationError, section: type[Settings], path: str | Path
         said = f"'{name}' is missing"
         if problem == "extra_forbidden":
             said = f"'{name}' is not a known key; allowed: {allowed}"
+    elif problem == "json_invalid":
+        said = f"is not JSON: {context['error']}"
     elif problem == "value_error":
         cause = context["error"]
         said, inner = str(cause), getattr(cause, "key", "")

@@ -20,9 +20,9 @@ from grasptypes.planning.plan_comparison import (
     savings,
     summary,
     text,
+    unseen_types,
 )
-from grasptypes.planning.planner import PlanningContext
-from grasptypes.planning.unseen_types import unseen_types
+from grasptypes.planning.sessions import PlanningContext
 from grasptypes.predictors.problem import LearningProblem
 
 TYPES = {PREDICTED: ["Precision"], LABELLED: ["Small Wrap", "Large Wrap"]}

@@ -20,7 +20,7 @@ from grasptypes.labels.published import read_published
 from grasptypes.objects.loading import load_object
 from grasptypes.planning import plan_contacts as plan_contacts_module
 from grasptypes.planning.plan_contacts import MeasuredMap, grips_of, plan_contacts
-from grasptypes.planning.planner import choose, ranked
+from grasptypes.planning.sessions import choose, ranked
 from grasptypes.predictors.weights import WEIGHTS_VARIABLE
 from grasptypes.settings.params import read_params
 

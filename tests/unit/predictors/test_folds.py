@@ -9,8 +9,8 @@ from grasptypes.labels.samples import COUNTS, samples_from_counts
 from grasptypes.predictors.examples import assemble
 from grasptypes.predictors.features import NO_TASK
 from grasptypes.predictors.folds import FOLD_SCHEMA, split
+from grasptypes.predictors.members import members_by_group
 from grasptypes.predictors.predictor import VARIANTS
-from grasptypes.predictors.training import members_by_group
 from grasptypes.seeds import rng
 
 VIEWS = {"apple": 13, "mug": 10, "pan": 11}

@@ -16,7 +16,7 @@ from grasptypes.predictors.generalisation import (
     trial_examples,
     try_trial,
 )
-from grasptypes.predictors.leaving_out import members_by_object
+from grasptypes.predictors.members import members_by_object
 from grasptypes.predictors.scoring import METRIC_SCHEMA
 from grasptypes.reports.figures import draw_generalisation
 from grasptypes.settings.predictors import VariantTrial

@@ -8,13 +8,8 @@ from PIL import Image
 
 from grasptypes.errors import InputError
 from grasptypes.files import write_bytes, write_npz, zip_bytes
-from grasptypes.predictors.learning_inputs import (
-    read_backbone_record,
-    read_inputs,
-    recorded_weights,
-    write_backbone_record,
-)
-from grasptypes.predictors.weights import WEIGHTS_VARIABLE, find_weights
+from grasptypes.predictors.features import read_inputs
+from grasptypes.predictors.weights import WEIGHTS_VARIABLE, BackboneRecord, find_weights
 
 TASKS = {"use": 10, "handoff": -10}
 
@@ -22,20 +17,27 @@ TASKS = {"use": 10, "handoff": -10}
 def test_the_record_knows_the_weights_but_not_where_they_lie(tmp_path, monkeypatch):
     (tmp_path / "a.pth").write_bytes(b"weights")
     monkeypatch.setenv(WEIGHTS_VARIABLE, str(tmp_path / "a.pth"))
-    write_backbone_record(find_weights(0), 224, tmp_path / "backbone.json")
+    BackboneRecord.of(find_weights(0), 224).write(tmp_path / "backbone.json")
     assert str(tmp_path) not in (tmp_path / "backbone.json").read_text()
-    record = read_backbone_record(tmp_path / "backbone.json")
-    assert recorded_weights(record).path == tmp_path / "a.pth"
+    record = BackboneRecord.read(tmp_path / "backbone.json")
+    assert record.find_weights().path == tmp_path / "a.pth"
     (tmp_path / "a.pth").write_bytes(b"others")
     with pytest.raises(InputError, match=r"a\.pth: is not the recorded a\.pth"):
-        recorded_weights(record)
+        record.find_weights()
 
 
-@pytest.mark.parametrize("content", ["", "[]", '{"backbone": 1}'])
-def test_a_damaged_record_is_refused(tmp_path, content):
+@pytest.mark.parametrize(
+    ("content", "said"),
+    [
+        ("", "is not JSON"),
+        ("[]", "is not a mapping"),
+        ('{"backbone": 1}', "'weights' is missing|backbone: 1 is not text"),
+    ],
+)
+def test_a_damaged_record_is_refused(tmp_path, content, said):
     (tmp_path / "backbone.json").write_text(content)
-    with pytest.raises(InputError, match="not a backbone record"):
-        read_backbone_record(tmp_path / "backbone.json")
+    with pytest.raises(InputError, match=said):
+        BackboneRecord.read(tmp_path / "backbone.json")
 
 
 def test_inputs_are_features_or_encoded_pictures(tmp_path):

@@ -16,7 +16,7 @@ from grasptypes.labels.samples import TYPES
 from grasptypes.predictors import prediction
 from grasptypes.predictors.prediction import Answer, predictor_paths
 from grasptypes.predictors.prediction_pictures import draw_answers, montage
-from grasptypes.predictors.predictor_files import load_predictor, read_card
+from grasptypes.predictors.predictor_files import ModelCard, load_predictor
 from grasptypes.predictors.weights import WEIGHTS_VARIABLE, weights_file
 
 PICTURE = np.random.default_rng(1).integers(0, 256, (64, 64, 3), dtype=np.uint8)
@@ -149,7 +149,7 @@ def test_models_are_found_by_row_or_name(checkout):
 
 
 def test_names_are_no_mathematics_and_have_room(checkout):
-    card = read_card(checkout / "models/simulated/task_vector/predictor.json")
+    card = ModelCard.read(checkout / "models/simulated/task_vector/predictor.json")
     even = np.full(len(TYPES), 1 / len(TYPES))
     names = ["a $\\cup$ of $5_$.png", "x" * 100 + ".png"]
     answers = [Answer(name, TYPES, even, even) for name in names]

@@ -11,7 +11,7 @@ from grasptypes.errors import InputError
 from grasptypes.predictors.backbone import load_backbone
 from grasptypes.predictors.features import extract
 from grasptypes.predictors.predictor import VARIANTS
-from grasptypes.predictors.predictor_files import load_predictor, read_card, write_predictor
+from grasptypes.predictors.predictor_files import ModelCard, load_predictor, write_predictor
 
 IMAGES = np.random.default_rng(0).integers(0, 256, (3, 40, 40, 3), dtype=np.uint8)
 
@@ -39,9 +39,9 @@ def shown_and_told(card, task):
 @pytest.mark.parametrize("model", VARIANTS)
 def test_images_are_seen_as_the_features_that_were_learnt_from(files, weights, model, precision):
     learning.small_predictor(files[0].parent, weights, model)
-    card = replace(read_card(files[1]), precision=precision)
+    card = ModelCard.read(files[1]).changed(precision=precision)
     write_predictor(load_predictor(*files, weights).head, None, card, *files)
-    assert read_card(files[1]) == card
+    assert ModelCard.read(files[1]) == card
     predictor = load_predictor(*files, weights)
     logits = {}
     for task in card.tasks:
@@ -65,7 +65,7 @@ def test_a_fine_tuned_backbone_is_kept_with_its_head(files, weights):
     with torch.no_grad():
         for parameter in tuned.blocks[-1].parameters():
             parameter += 0.1
-    card = replace(predictor.card, finetune="last_blocks")
+    card = predictor.card.changed(finetune="last_blocks")
     write_predictor(predictor.head, tuned, card, *files)
     loaded = load_predictor(*files, weights)
     for name, tensor in loaded.backbone.state_dict().items():
@@ -86,7 +86,8 @@ def test_other_weights_and_damaged_files_are_rejected(files, weights):
     files[0].write_bytes(files[0].read_bytes()[:-10])
     with pytest.raises(InputError, match=r"predictor\.safetensors"):
         load_predictor(*files, weights)
-    for damaged in ("{}", files[1].read_text().replace('"precision"', '"accuracy"')):
+    renamed = files[1].read_text().replace('"precision"', '"accuracy"')
+    for damaged, said in (("{}", "is missing"), (renamed, "'accuracy' is not a known key")):
         files[1].write_text(damaged)
-        with pytest.raises(InputError, match="not a predictor's card"):
-            read_card(files[1])
+        with pytest.raises(InputError, match=said):
+            ModelCard.read(files[1])

@@ -7,10 +7,9 @@ from grasptypes.errors import InputError
 from grasptypes.files import write_npz
 from grasptypes.labels.samples import SAMPLE_SCHEMA
 from grasptypes.predictors.folds import FOLD_SCHEMA
-from grasptypes.predictors.learning_inputs import write_backbone_record
 from grasptypes.predictors.predictor import Architecture
 from grasptypes.predictors.problem import read_problem
-from grasptypes.predictors.weights import WEIGHTS_VARIABLE
+from grasptypes.predictors.weights import WEIGHTS_VARIABLE, BackboneRecord
 from grasptypes.tables import write_table
 
 TUNED = learning.SETTINGS.changed(finetune="all")
@@ -21,7 +20,7 @@ def files(tmp_path, monkeypatch):
     """Features, samples, folds and the record of a backbone that has seen nothing."""
     weights = learning.random_weights(tmp_path / "random.pth")
     monkeypatch.setenv(WEIGHTS_VARIABLE, str(weights.path))
-    write_backbone_record(weights, 32, tmp_path / "backbone.json")
+    BackboneRecord.of(weights, 32).write(tmp_path / "backbone.json")
     for name, encoded in learning.features().items():
         write_npz(tmp_path / f"{name}.npz", encoded)
     write_table(learning.samples(), tmp_path / "samples.csv", SAMPLE_SCHEMA)

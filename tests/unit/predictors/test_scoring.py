@@ -5,8 +5,8 @@ import pandas as pd
 
 from grasptypes.labels.samples import TYPES
 from grasptypes.predictors.examples import Examples
+from grasptypes.predictors.members import Member
 from grasptypes.predictors.scoring import PREDICTION_SCHEMA, curve_table, score
-from grasptypes.predictors.training import Member
 
 
 def test_every_member_is_scored_on_its_own_test_examples():

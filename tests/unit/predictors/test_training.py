@@ -4,8 +4,9 @@ import learning
 import numpy as np
 import pytest
 
+from grasptypes.predictors.members import Member, members_by_group
 from grasptypes.predictors.scoring import score
-from grasptypes.predictors.training import Member, fit, members_by_group, predict
+from grasptypes.predictors.training import fit, predict
 
 KEY = ("predictor", "test")
 

@@ -7,12 +7,13 @@ import pandas as pd
 import pytest
 
 from grasptypes.labels.samples import COUNTS, samples_from_counts
-from grasptypes.predictors.learning_inputs import BackboneRecord
 from grasptypes.predictors.scoring import METRIC_SCHEMA, with_source
+from grasptypes.predictors.weights import BackboneRecord
 from grasptypes.reports.result_text import markdown
 from grasptypes.reports.results import RESULT_SCHEMA, constant_rows, tabulate
 
-BACKBONE = BackboneRecord("mobilenet_v2", "a.pth (0a1b2c3d)", "0a1b2c3d", 224)
+WEIGHTS = {"weights": "a.pth (0a1b2c3d)", "sha256": "0a1b2c3d"}
+BACKBONE = BackboneRecord(backbone="mobilenet_v2", **WEIGHTS, input_px=224)
 
 
 OBJECTS = ("mug", "pan")
