@@ -76,9 +76,7 @@ CASES = [
     asked("an unknown model", (*ASK, "--model", "e"), "--model: e", "task_vector"),
     asked("unknown labels", (*ASK, "--labels", "../.."), "--labels: ../..", "simulated, published"),
     asked("an untrained model", ASK, f"{MODEL}/predictor.safetensors", "snakemake -j2"),
-    asked(
-        "a damaged card", ASK, "predictor.json", "is not JSON", safetensors=b"", json="{"
-    ),
+    asked("a damaged card", ASK, "predictor.json", "is not JSON", safetensors=b"", json="{"),
     Case(
         "command",
         "changes that are not YAML",

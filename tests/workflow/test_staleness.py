@@ -147,7 +147,7 @@ def test_every_module_reruns_the_rules_that_import_it(workflow: Workflow) -> Non
         ("assets/barrett_hand/barrett_hand.urdf", "synthesize_grasps"),
         ("assets/barrett_hand/collision/distal_fingertip.obj", "synthesize_grasps"),
         ("assets/published_labels.csv", "label_published"),
-        ("src/grasptypes/objects/dimensions.yaml", "prepare_object"),
+        ("src/grasptypes/objects/catalogue.yaml", "prepare_object"),
     ],
 )
 def test_an_asset_reruns_its_readers(workflow: Workflow, asset: str, rule: str) -> None:

@@ -11,7 +11,7 @@ from grasptypes.start_up import check_start
 from grasptypes.content_hash import CodeHash, FileHash
 
 PUBLISHED_COUNTS = "assets/published_labels.csv"
-DIMENSIONS = f"{workflow.basedir}/src/grasptypes/objects/dimensions.yaml"
+CATALOGUE = f"{workflow.basedir}/src/grasptypes/objects/catalogue.yaml"
 
 try:
     PARAMS = Params.check(config)
@@ -66,14 +66,14 @@ def object_settings(wildcards):
     if own:
         return {"resolution": objects["resolution"], "own": own, "import": objects["import"]}
     how = {key: objects[key] for key in ("resolution", "scale")}
-    return how | {"dimensions": file_hash(DIMENSIONS)}
+    return how | {"catalogue": file_hash(CATALOGUE)}
 
 
 def variant_settings():
     """What a variant is made with."""
     kept = ("scale", "variation", "resolution")
     how = {key: config["objects"][key] for key in kept}
-    return how | {"dimensions": file_hash(DIMENSIONS)}
+    return how | {"catalogue": file_hash(CATALOGUE)}
 
 
 def variant_views():

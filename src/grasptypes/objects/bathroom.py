@@ -4,28 +4,20 @@ import numpy as np
 from manifold3d import Manifold
 
 from grasptypes.objects import lofts, sections, solids
-from grasptypes.objects.parts import Material, ObjectModel, Part, Size
-
-TURQUOISE_PLASTIC = Material((0.05, 0.58, 0.66, 1.0), roughness=0.4)
-NAVY_RUBBER = Material((0.07, 0.13, 0.38, 1.0), roughness=0.8)
-WHITE_BRISTLES = Material((0.94, 0.95, 0.97, 1.0), roughness=0.9)
-WHITE_TUBE = Material((0.93, 0.94, 0.95, 1.0), roughness=0.35)
-RED_PRINT = Material((0.80, 0.06, 0.10, 1.0), roughness=0.35)
-BLUE_PRINT = Material((0.07, 0.22, 0.62, 1.0), roughness=0.35)
+from grasptypes.objects.parts import Size, Solids
 
 
-def toothbrush(size: Size) -> ObjectModel:
-    """Build the toothbrush with parts handle, grip_pad, neck, head and bristles."""
+def toothbrush(size: Size) -> Solids:
+    """The toothbrush: handle, grip_pad, neck, head and bristles."""
     stem = _toothbrush_stem(size)
     head, neck, handle = solids.slabs(stem, [size.head_end_x_m, size.neck_end_x_m], "x")
-    parts = (
-        Part("handle", handle, TURQUOISE_PLASTIC),
-        Part("grip_pad", _toothbrush_pad(size), NAVY_RUBBER),
-        Part("neck", neck, WHITE_TUBE),
-        Part("head", head, TURQUOISE_PLASTIC),
-        Part("bristles", _toothbrush_bristles(size), WHITE_BRISTLES),
-    )
-    return ObjectModel(parts, density_kg_m3=1000.0)
+    return {
+        "handle": handle,
+        "grip_pad": _toothbrush_pad(size),
+        "neck": neck,
+        "head": head,
+        "bristles": _toothbrush_bristles(size),
+    }
 
 
 def _toothbrush_stem(size: Size, swell_m: float = 0.0) -> Manifold:
@@ -68,8 +60,8 @@ def _toothbrush_bristles(size: Size) -> Manifold:
     return tufts.translate((size.bristles_x_m, middle_y_m, size.stations[3][2]))
 
 
-def toothpaste(size: Size) -> ObjectModel:
-    """Build the tube with parts body, fold, label, stripe, shoulder and cap."""
+def toothpaste(size: Size) -> Solids:
+    """The tube: body, fold, label, stripe, shoulder and cap."""
     body = _tube_body(size)
     middle_m = (size.label_start_x_m + size.label_end_x_m) / 2
     label = _between(_tube_body(size, size.print_m), size.label_start_x_m, size.label_end_x_m)
@@ -79,15 +71,14 @@ def toothpaste(size: Size) -> ObjectModel:
         middle_m + size.stripe_width_m / 2,
     )
     fold = solids.box((0.0093, 2 * size.stations[0][1], size.fold_thickness_m))
-    parts = (
-        Part("body", body, WHITE_TUBE),
-        Part("label", label, RED_PRINT),
-        Part("stripe", stripe, WHITE_TUBE),
-        Part("fold", fold.translate((size.fold_x_m + 0.00465, 0.0, 0.0)), BLUE_PRINT),
-        Part("shoulder", _tube_shoulder(size), WHITE_TUBE),
-        Part("cap", _tube_cap(size), BLUE_PRINT),
-    )
-    return ObjectModel(parts, density_kg_m3=1100.0)
+    return {
+        "body": body,
+        "label": label,
+        "stripe": stripe,
+        "fold": fold.translate((size.fold_x_m + 0.00465, 0.0, 0.0)),
+        "shoulder": _tube_shoulder(size),
+        "cap": _tube_cap(size),
+    }
 
 
 def _tube_body(size: Size, swell_m: float = 0.0) -> Manifold:

@@ -5,25 +5,18 @@ from manifold3d import Manifold
 from numpy.typing import ArrayLike, NDArray
 
 from grasptypes.objects import lofts, sections, solids
-from grasptypes.objects.parts import Material, ObjectModel, Part, Size
-
-BLADE_STEEL = Material((0.78, 0.80, 0.83, 1.0), metallic=0.3, roughness=0.25)
-BOLSTER_STEEL = Material((0.52, 0.54, 0.57, 1.0), metallic=0.3, roughness=0.35)
-DARK_WOOD = Material((0.30, 0.16, 0.09, 1.0), roughness=0.6)
-ORANGE_PLASTIC = Material((0.93, 0.36, 0.07, 1.0), roughness=0.45)
-BRASS = Material((0.78, 0.63, 0.30, 1.0), metallic=0.3, roughness=0.4)
+from grasptypes.objects.parts import Size, Solids
 
 
-def knife(size: Size) -> ObjectModel:
-    """Build the knife with parts handle, rivets, bolster and blade."""
+def knife(size: Size) -> Solids:
+    """The knife: handle, rivets, bolster and blade."""
     handle, bolster = solids.slabs(_knife_handle(size), [size.bolster_y_m], "y")
-    parts = (
-        Part("handle", handle, DARK_WOOD, density_kg_m3=800.0),
-        Part("rivets", _knife_rivets(size), BRASS),
-        Part("bolster", bolster, BOLSTER_STEEL),
-        Part("blade", _knife_blade(size), BLADE_STEEL),
-    )
-    return ObjectModel(parts, density_kg_m3=7800.0)
+    return {
+        "handle": handle,
+        "rivets": _knife_rivets(size),
+        "bolster": bolster,
+        "blade": _knife_blade(size),
+    }
 
 
 def _knife_handle(size: Size) -> Manifold:
@@ -66,8 +59,8 @@ def _blade_section(size: Size, spine_m: float, edge_m: float, half_m: float) -> 
     return np.array(lower + [(x, -z) for x, z in reversed(lower)])
 
 
-def scissors(size: Size) -> ObjectModel:
-    """Build the scissors with parts blade_left, blade_right, loop_left, loop_right and pivot."""
+def scissors(size: Size) -> Solids:
+    """The scissors: blade_left, blade_right, loop_left, loop_right and pivot."""
     blade = _scissors_blade(size)
     loop = _scissors_loop(size)
     centre = (0.0, size.pivot_y_m, size.rivet_bottom_m)
@@ -77,21 +70,14 @@ def scissors(size: Size) -> ObjectModel:
         for radius_m in (size.rivet_radius_m, size.rivet_hole_radius_m)
     )
     shapes = {
-        "blade_left": (blade.mirror((1.0, 0.0, 0.0)), BLADE_STEEL, None),
-        "blade_right": (blade.mirror((0.0, 0.0, 1.0)), BLADE_STEEL, None),
-        "loop_left": (
-            loop.rotate((0.0, 180.0, 0.0)) + _scissors_stop(size),
-            ORANGE_PLASTIC,
-            size.plastic_density_kg_m3,
-        ),
-        "loop_right": (loop, ORANGE_PLASTIC, size.plastic_density_kg_m3),
-        "pivot": (pivot, BRASS, None),
+        "blade_left": blade.mirror((1.0, 0.0, 0.0)),
+        "blade_right": blade.mirror((0.0, 0.0, 1.0)),
+        "loop_left": loop.rotate((0.0, 180.0, 0.0)) + _scissors_stop(size),
+        "loop_right": loop,
+        "pivot": pivot,
     }
-    parts = tuple(
-        Part(name, solids.rotate(solid - hole, y_deg=size.tilt_deg), material, density)
-        for name, (solid, material, density) in shapes.items()
-    )
-    return ObjectModel(parts, density_kg_m3=7800.0)
+    tilt_deg = (0.0, size.tilt_deg, 0.0)
+    return {name: (solid - hole).rotate(tilt_deg) for name, solid in shapes.items()}
 
 
 def _scissors_blade(size: Size) -> Manifold:

@@ -16,11 +16,10 @@ from grasptypes.objects import (
     turned,
     vessels,
 )
-from grasptypes.objects.parts import ObjectModel, Size
+from grasptypes.objects.parts import Material, ObjectModel, Part, Size, Solids
 from grasptypes.yaml_files import read_yaml
 
-DIMENSIONS = Path(__file__).with_name("dimensions.yaml")
-OBJECTS: dict[str, Callable[[Size], ObjectModel]] = {
+OBJECTS: dict[str, Callable[[Size], Solids]] = {
     "apple": fruit.apple,
     "banana": fruit.banana,
     "bowl": vessels.bowl,
@@ -44,10 +43,21 @@ OBJECTS: dict[str, Callable[[Size], ObjectModel]] = {
 
 
 def build(name: str, **changes: float) -> ObjectModel:
-    """Build an object with the dimensions in `dimensions.yaml`, some of them changed."""
-    return OBJECTS[name](Size(**(_dimensions()[name] | changes)))
+    """Build an object as `catalogue.yaml` describes it, with some of its dimensions changed."""
+    entry = _catalogue()[name]
+    looks = {key: dict(look) for key, look in entry["materials"].items()}
+    densities = {key: look.pop("density_kg_m3", None) for key, look in looks.items()}
+    materials = {
+        key: Material(tuple(look.pop("base_color")), **look) for key, look in looks.items()
+    }
+    shapes = OBJECTS[name](Size(**(entry["size"] | changes)))
+    parts = tuple(
+        Part(part, solid, materials[entry["parts"][part]], densities[entry["parts"][part]])
+        for part, solid in shapes.items()
+    )
+    return ObjectModel(parts, entry["density_kg_m3"], entry.get("shell_thickness_m"))
 
 
 @cache
-def _dimensions() -> dict[str, Any]:
-    return read_yaml(DIMENSIONS)
+def _catalogue() -> dict[str, Any]:
+    return read_yaml(Path(__file__).with_suffix(".yaml"))

@@ -4,17 +4,11 @@ import numpy as np
 from manifold3d import Manifold
 
 from grasptypes.objects import sections, solids
-from grasptypes.objects.parts import Material, ObjectModel, Part, Size
-
-DARK_METAL = Material((0.20, 0.20, 0.22, 1.0), metallic=0.3, roughness=0.45)
-STEEL = Material((0.62, 0.63, 0.65, 1.0), metallic=0.4, roughness=0.35)
-HANDLE_PLASTIC = Material((0.08, 0.07, 0.07, 1.0), roughness=0.55)
-GLAZE = Material((0.78, 0.72, 0.56, 1.0), roughness=0.3)
-GLAZE_DARK = Material((0.52, 0.30, 0.16, 1.0), roughness=0.3)
+from grasptypes.objects.parts import Size, Solids
 
 
-def pan(size: Size) -> ObjectModel:
-    """Build the pan with parts rim, body, bracket and handle."""
+def pan(size: Size) -> Solids:
+    """The pan: rim, body, bracket and handle."""
     body, rim = (
         solids.revolve(profile).translate((size.axis_x_m, 0, 0)).rotate((0, size.tilt_deg, 0))
         for profile in _pan_profiles(size)
@@ -22,13 +16,12 @@ def pan(size: Size) -> ObjectModel:
     bracket = solids.extrude(
         [(x, -z) for x, z in size.bracket_outline_m[::-1]], size.bracket_width_m, axis="y"
     )
-    parts = (
-        Part("rim", rim, STEEL),
-        Part("body", body, DARK_METAL),
-        Part("bracket", bracket, STEEL),
-        Part("handle", _pan_handle(size), HANDLE_PLASTIC, density_kg_m3=1400.0),
-    )
-    return ObjectModel(parts, density_kg_m3=7850.0)
+    return {
+        "rim": rim,
+        "body": body,
+        "bracket": bracket,
+        "handle": _pan_handle(size),
+    }
 
 
 def _pan_profiles(size: Size) -> tuple[sections.Curve, sections.Curve]:
@@ -78,8 +71,8 @@ def _pan_handle(size: Size) -> Manifold:
     return (bar ^ plan) - hole
 
 
-def utah_teapot(size: Size) -> ObjectModel:
-    """Build the teapot, closed by its lid, with parts body, lid, handle and spout."""
+def utah_teapot(size: Size) -> Solids:
+    """The teapot, closed by its lid,: body, lid, handle and spout."""
     body = sections.chain(
         [(0.0, size.bottom_height_m), (0.6 * size.foot_radius_m, size.bottom_height_m + 0.0004)],
         [(size.foot_radius_m, size.bottom_height_m + 0.0016)],
@@ -91,13 +84,12 @@ def utah_teapot(size: Size) -> ObjectModel:
         sections.smooth_curve(size.lid_profile_m, 64),
         [(0.0, size.lid_height_m)],
     )
-    parts = (
-        Part("body", _on_axis(body, size), GLAZE),
-        Part("lid", _on_axis(lid, size), GLAZE_DARK),
-        Part("handle", _teapot_handle(size), GLAZE_DARK),
-        Part("spout", _teapot_spout(size), GLAZE),
-    )
-    return ObjectModel(parts, density_kg_m3=2300.0, shell_thickness_m=0.004)
+    return {
+        "body": _on_axis(body, size),
+        "lid": _on_axis(lid, size),
+        "handle": _teapot_handle(size),
+        "spout": _teapot_spout(size),
+    }
 
 
 def _on_axis(profile: sections.Curve, size: Size) -> Manifold:

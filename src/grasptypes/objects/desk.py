@@ -4,18 +4,11 @@ import numpy as np
 from manifold3d import Manifold
 
 from grasptypes.objects import lofts, sections, solids
-from grasptypes.objects.parts import Material, ObjectModel, Part, Size
-
-GREY_PLASTIC = Material((0.36, 0.38, 0.41, 1.0), roughness=0.5)
-PALE_PLASTIC = Material((0.80, 0.81, 0.82, 1.0), roughness=0.45)
-BLACK_RUBBER = Material((0.07, 0.07, 0.08, 1.0), roughness=0.9)
-RED_PAINT = Material((0.75, 0.07, 0.07, 1.0), roughness=0.35)
-BLACK_PLASTIC = Material((0.10, 0.10, 0.11, 1.0), roughness=0.5)
-SHEET_STEEL = Material((0.70, 0.72, 0.75, 1.0), metallic=0.3, roughness=0.35)
+from grasptypes.objects.parts import Size, Solids
 
 
-def mouse(size: Size) -> ObjectModel:
-    """Build the mouse with parts body, button_left, button_right and wheel."""
+def mouse(size: Size) -> Solids:
+    """The mouse: body, button_left, button_right and wheel."""
     shell = _mouse_shell(size)
     core = _mouse_shell(size, size.seam_depth_m)
     well = _mouse_wheel(size, size.wheel_gap_m)
@@ -26,13 +19,12 @@ def mouse(size: Size) -> ObjectModel:
     body = (skin - zone) + (core - well)
     lids = (skin ^ zone) - _mouse_shell(size, 1.2 * size.seam_depth_m)
     right, left = solids.slabs(lids, [0.0], "y")
-    parts = (
-        Part("body", body, GREY_PLASTIC),
-        Part("button_left", left, PALE_PLASTIC),
-        Part("button_right", right, PALE_PLASTIC),
-        Part("wheel", _mouse_wheel(size), BLACK_RUBBER),
-    )
-    return ObjectModel(parts, density_kg_m3=550.0)
+    return {
+        "body": body,
+        "button_left": left,
+        "button_right": right,
+        "wheel": _mouse_wheel(size),
+    }
 
 
 def _mouse_shell(size: Size, inset_m: float = 0.0) -> Manifold:
@@ -87,17 +79,16 @@ def _mouse_wheel(size: Size, gap_m: float = 0.0) -> Manifold:
     return solids.slabs(wheel, [bottom_m])[1]
 
 
-def stapler(size: Size) -> ObjectModel:
-    """Build the stapler with parts base, anvil, hinge, pin, magazine and cover."""
-    parts = (
-        Part("base", _stapler_base(size), BLACK_PLASTIC),
-        Part("anvil", _stapler_anvil(size), SHEET_STEEL),
-        Part("hinge", _stapler_hinge(size), SHEET_STEEL),
-        Part("pin", _stapler_pin(size), SHEET_STEEL),
-        Part("magazine", _stapler_magazine(size), SHEET_STEEL),
-        Part("cover", _stapler_cover(size), RED_PAINT),
-    )
-    return ObjectModel(parts, density_kg_m3=2200.0)
+def stapler(size: Size) -> Solids:
+    """The stapler: base, anvil, hinge, pin, magazine and cover."""
+    return {
+        "base": _stapler_base(size),
+        "anvil": _stapler_anvil(size),
+        "hinge": _stapler_hinge(size),
+        "pin": _stapler_pin(size),
+        "magazine": _stapler_magazine(size),
+        "cover": _stapler_cover(size),
+    }
 
 
 def _stapler_base(size: Size) -> Manifold:

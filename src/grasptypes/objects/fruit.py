@@ -4,16 +4,11 @@ import numpy as np
 from manifold3d import Manifold
 
 from grasptypes.objects import sections, solids
-from grasptypes.objects.parts import Material, ObjectModel, Part, Size
-
-APPLE_RED = Material((0.72, 0.07, 0.09, 1.0), roughness=0.3)
-BARK = Material((0.30, 0.19, 0.09, 1.0), roughness=0.9)
-BANANA_YELLOW = Material((0.98, 0.80, 0.13, 1.0), roughness=0.5)
-BANANA_STEM = Material((0.62, 0.60, 0.16, 1.0), roughness=0.7)
+from grasptypes.objects.parts import Size, Solids
 
 
-def apple(size: Size) -> ObjectModel:
-    """Build the apple with parts flesh, stem and calyx."""
+def apple(size: Size) -> Solids:
+    """The apple: flesh, stem and calyx."""
     radius_m, half_m = size.diameter_m / 2, size.height_m / 2
     curve = sections.smooth_curve(size.profile, 72) * [radius_m, half_m]
     profile = sections.chain([(0.0, curve[0, 1])], curve, [(0.0, curve[-1, 1])])
@@ -38,27 +33,25 @@ def apple(size: Size) -> ObjectModel:
         path, sections.circle(size.stem_radius_m, 16), np.linspace(0.9, 1.5, 16), up=(0, 1, 0)
     )
     calyx = solids.ellipsoid((0.0035, 0.0035, 0.0030), 24).translate((0, 0, curve[0, 1]))
-    parts = (
-        Part("flesh", solids.revolve(profile).warp_batch(furrow), APPLE_RED),
-        Part("stem", stem, BARK),
-        Part("calyx", calyx, BARK),
-    )
-    return ObjectModel(parts, density_kg_m3=840.0)
+    return {
+        "flesh": solids.revolve(profile).warp_batch(furrow),
+        "stem": stem,
+        "calyx": calyx,
+    }
 
 
-def banana(size: Size) -> ObjectModel:
-    """Build the banana with parts body, stem and tip."""
+def banana(size: Size) -> Solids:
+    """The banana: body, stem and tip."""
     body = _banana_length(size, 0.0, 1.0, 1.0)
     stem = _banana_length(size, -0.004, size.stem_fraction, 1.04)
     tip = _banana_length(size, 1.0 - size.tip_fraction, 1.004, 1.05)
     low_x, _, low_z, high_x, _, high_z = (body + stem + tip).bounding_box()
     centre = (-(low_x + high_x) / 2, 0.0, -(low_z + high_z) / 2)
-    parts = (
-        Part("body", body.translate(centre), BANANA_YELLOW),
-        Part("stem", stem.translate(centre), BANANA_STEM),
-        Part("tip", tip.translate(centre), BARK),
-    )
-    return ObjectModel(parts, density_kg_m3=950.0)
+    return {
+        "body": body.translate(centre),
+        "stem": stem.translate(centre),
+        "tip": tip.translate(centre),
+    }
 
 
 def _banana_length(size: Size, start: float, end: float, swell: float) -> Manifold:

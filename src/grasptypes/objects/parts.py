@@ -7,7 +7,11 @@ from manifold3d import Manifold
 
 
 class Size(SimpleNamespace):
-    """Dimensions of a catalogue object: the numbers, and rows of them, in `dimensions.yaml`."""
+    """Dimensions of a catalogue object: the numbers, and rows of them, in `catalogue.yaml`."""
+
+
+Solids = dict[str, Manifold]
+"""The solids of an object's parts by name, the first of which owns what it shares with others."""
 
 
 @dataclass(frozen=True)

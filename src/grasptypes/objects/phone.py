@@ -4,29 +4,22 @@ from manifold3d import Manifold
 from numpy.typing import ArrayLike
 
 from grasptypes.objects import lofts, sections, solids
-from grasptypes.objects.parts import Material, ObjectModel, Part, Size
-
-NAVY_PLASTIC = Material((0.10, 0.17, 0.34, 1.0), roughness=0.45)
-BLACK_PLASTIC = Material((0.08, 0.08, 0.09, 1.0), roughness=0.5)
-SILVER_PLASTIC = Material((0.62, 0.65, 0.68, 1.0), roughness=0.4)
-GREEN_SCREEN = Material((0.60, 0.74, 0.42, 1.0), roughness=0.2)
-LIGHT_KEYS = Material((0.88, 0.90, 0.90, 1.0), roughness=0.5)
+from grasptypes.objects.parts import Size, Solids
 
 
-def cell_phone(size: Size) -> ObjectModel:
-    """Build the phone with parts back, front, bezel, screen, keys, menu_key and antenna."""
+def cell_phone(size: Size) -> Solids:
+    """The phone: back, front, bezel, screen, keys, menu_key and antenna."""
     front, back = _phone_covers(size)
     bezel, screen = _phone_display(size)
-    parts = (
-        Part("back", back, BLACK_PLASTIC),
-        Part("front", front, NAVY_PLASTIC),
-        Part("bezel", bezel, SILVER_PLASTIC),
-        Part("screen", screen, GREEN_SCREEN),
-        Part("keys", _phone_keys(size), LIGHT_KEYS),
-        Part("menu_key", _phone_menu_key(size), LIGHT_KEYS),
-        Part("antenna", _phone_antenna(size), BLACK_PLASTIC),
-    )
-    return ObjectModel(parts, density_kg_m3=1100.0)
+    return {
+        "back": back,
+        "front": front,
+        "bezel": bezel,
+        "screen": screen,
+        "keys": _phone_keys(size),
+        "menu_key": _phone_menu_key(size),
+        "antenna": _phone_antenna(size),
+    }
 
 
 def _phone_shell(size: Size, raise_m: float = 0.0) -> Manifold:

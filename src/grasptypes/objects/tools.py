@@ -4,27 +4,18 @@ import numpy as np
 from manifold3d import Manifold
 
 from grasptypes.objects import lofts, sections, solids
-from grasptypes.objects.parts import Material, ObjectModel, Part, Size
-
-STEEL = Material((0.56, 0.58, 0.61, 1.0), metallic=0.3, roughness=0.4)
-POLISHED_STEEL = Material((0.74, 0.76, 0.79, 1.0), metallic=0.3, roughness=0.3)
-ASH_WOOD = Material((0.76, 0.53, 0.29, 1.0), roughness=0.7)
-ANODISED_RED = Material((0.62, 0.07, 0.08, 1.0), metallic=0.2, roughness=0.4)
-BLACK_PLASTIC = Material((0.09, 0.09, 0.10, 1.0), roughness=0.5)
-REFLECTOR = Material((0.82, 0.83, 0.85, 1.0), metallic=0.2, roughness=0.25)
-WARM_LENS = Material((1.0, 0.90, 0.45, 1.0), roughness=0.2)
+from grasptypes.objects.parts import Size, Solids
 
 
-def hammer(size: Size) -> ObjectModel:
-    """Build the hammer with parts head, face, claw and handle."""
+def hammer(size: Size) -> Solids:
+    """The hammer: head, face, claw and handle."""
     head, face = _hammer_head(size)
-    parts = (
-        Part("handle", _hammer_handle(size), ASH_WOOD, density_kg_m3=700.0),
-        Part("head", head, STEEL),
-        Part("face", face, POLISHED_STEEL),
-        Part("claw", _hammer_claw(size), STEEL),
-    )
-    return ObjectModel(parts, density_kg_m3=7850.0)
+    return {
+        "handle": _hammer_handle(size),
+        "head": head,
+        "face": face,
+        "claw": _hammer_claw(size),
+    }
 
 
 def _hammer_handle(size: Size) -> Manifold:
@@ -89,19 +80,18 @@ def _hammer_claw(size: Size) -> Manifold:
     return claw + key.translate((size.head_x_m, size.head_start_y_m + 0.001, 0.0))
 
 
-def flashlight(size: Size) -> ObjectModel:
-    """Build the flashlight with parts body, tail, head, reflector, lens and button."""
+def flashlight(size: Size) -> Solids:
+    """The flashlight: body, tail, head, reflector, lens and button."""
     body, tail = _flashlight_body(size)
     head, reflector, lens = _flashlight_head(size)
-    parts = (
-        Part("body", body, ANODISED_RED),
-        Part("tail", tail, BLACK_PLASTIC),
-        Part("head", head, BLACK_PLASTIC),
-        Part("reflector", reflector, REFLECTOR),
-        Part("lens", lens, WARM_LENS),
-        Part("button", _flashlight_button(size), BLACK_PLASTIC),
-    )
-    return ObjectModel(parts, density_kg_m3=1100.0)
+    return {
+        "body": body,
+        "tail": tail,
+        "head": head,
+        "reflector": reflector,
+        "lens": lens,
+        "button": _flashlight_button(size),
+    }
 
 
 def _flashlight_body(size: Size) -> tuple[Manifold, Manifold]:

@@ -4,18 +4,11 @@ import numpy as np
 from manifold3d import Manifold
 
 from grasptypes.objects import sections, solids
-from grasptypes.objects.parts import Material, ObjectModel, Part, Size
-
-WATER_BLUE = Material((0.52, 0.76, 0.90, 1.0), roughness=0.15)
-LABEL_BLUE = Material((0.07, 0.22, 0.62, 1.0), roughness=0.5)
-CAP_WHITE = Material((0.95, 0.95, 0.96, 1.0), roughness=0.4)
-OPAL_GLASS = Material((0.98, 0.96, 0.88, 1.0), roughness=0.25)
-BRASS = Material((0.72, 0.60, 0.34, 1.0), metallic=0.5, roughness=0.35)
-BLACK_GLASS = Material((0.06, 0.06, 0.07, 1.0), roughness=0.4)
+from grasptypes.objects.parts import Size, Solids
 
 
-def water_bottle(size: Size) -> ObjectModel:
-    """Build the water bottle with parts cap, neck, shoulder, label and body."""
+def water_bottle(size: Size) -> Solids:
+    """The water bottle: cap, neck, shoulder, label and body."""
     foot = size.foot_radius_m
     turn = np.radians(np.linspace(0, 90, 17))
     low = np.column_stack(
@@ -44,14 +37,13 @@ def water_bottle(size: Size) -> ObjectModel:
     collar = _disc(
         size.cap_radius_m, size.collar_height_m, size.collar_height_m + size.collar_thickness_m
     )
-    parts = (
-        Part("cap", _disc(size.cap_radius_m, size.cap_bottom_m, size.cap_top_m), CAP_WHITE),
-        Part("neck", neck + collar, WATER_BLUE),
-        Part("shoulder", shoulder, WATER_BLUE),
-        Part("label", label, LABEL_BLUE),
-        Part("body", body, WATER_BLUE),
-    )
-    return ObjectModel(parts, density_kg_m3=1000.0)
+    return {
+        "cap": _disc(size.cap_radius_m, size.cap_bottom_m, size.cap_top_m),
+        "neck": neck + collar,
+        "shoulder": shoulder,
+        "label": label,
+        "body": body,
+    }
 
 
 def _disc(radius_m: float, bottom_m: float, top_m: float) -> Manifold:
@@ -76,8 +68,8 @@ def _petal_grooves(size: Size) -> Manifold:
     return solids.union(*(wedge.rotate((0, 0, turn)) for turn in turns))
 
 
-def light_bulb(size: Size) -> ObjectModel:
-    """Build the light bulb with parts glass, screw_base, insulator and contact_tip."""
+def light_bulb(size: Size) -> Solids:
+    """The light bulb: glass, screw_base, insulator and contact_tip."""
     ball = sections.arc(
         (0.0, size.ball_centre_x_m), size.ball_radius_m, size.ball_start_deg, 90, 48
     )
@@ -91,13 +83,12 @@ def light_bulb(size: Size) -> ObjectModel:
     )
     tip_m = 0.004
     tip = solids.cylinder(size.tip_radius_m, tip_m).translate((0, 0, size.tip_end_x_m + tip_m / 2))
-    parts = (
-        Part("glass", solids.along(solids.revolve(glass), "x"), OPAL_GLASS),
-        Part("screw_base", solids.along(_screw_base(size), "x"), BRASS),
-        Part("insulator", solids.revolve(insulator, "x"), BLACK_GLASS),
-        Part("contact_tip", solids.along(tip, "x"), BRASS),
-    )
-    return ObjectModel(parts, density_kg_m3=2500.0, shell_thickness_m=0.0008)
+    return {
+        "glass": solids.along(solids.revolve(glass), "x"),
+        "screw_base": solids.along(_screw_base(size), "x"),
+        "insulator": solids.revolve(insulator, "x"),
+        "contact_tip": solids.along(tip, "x"),
+    }
 
 
 def _screw_base(size: Size) -> Manifold:

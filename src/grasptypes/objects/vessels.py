@@ -4,17 +4,11 @@ import numpy as np
 from manifold3d import Manifold
 
 from grasptypes.objects import sections, solids
-from grasptypes.objects.parts import Material, ObjectModel, Part, Size
-
-MELAMINE = Material((0.10, 0.33, 0.55, 1.0), roughness=0.35)
-MELAMINE_RIM = Material((0.93, 0.91, 0.84, 1.0), roughness=0.35)
-CUP_PLASTIC = Material((0.93, 0.36, 0.12, 1.0), roughness=0.45)
-EARTHENWARE = Material((0.74, 0.13, 0.12, 1.0), roughness=0.3)
-CLEAR_GLASS = Material((0.74, 0.86, 0.92, 0.55), roughness=0.08)
+from grasptypes.objects.parts import Size, Solids
 
 
-def bowl(size: Size) -> ObjectModel:
-    """Build the bowl with parts rim, wall and foot."""
+def bowl(size: Size) -> Solids:
+    """The bowl: rim, wall and foot."""
     start = -np.degrees(np.arccos(size.foot_radius_m / size.outer_radius_m))
     end = -np.degrees(
         np.arcsin((size.inner_centre_height_m - size.rim_height_m) / size.inner_radius_m)
@@ -26,16 +20,15 @@ def bowl(size: Size) -> ObjectModel:
     inner = sections.arc((0.0, size.inner_centre_height_m), size.inner_radius_m, -90, end, 40)
     solid = solids.revolve(sections.wall_profile(outer, inner))
     foot, wall, rim = solids.slabs(solid, [size.foot_height_m, size.rim_height_m - size.rim_band_m])
-    parts = (
-        Part("rim", rim, MELAMINE_RIM),
-        Part("wall", wall, MELAMINE),
-        Part("foot", foot, MELAMINE),
-    )
-    return ObjectModel(parts, density_kg_m3=1500.0)
+    return {
+        "rim": rim,
+        "wall": wall,
+        "foot": foot,
+    }
 
 
-def cup(size: Size) -> ObjectModel:
-    """Build the cup with parts rim, wall and base."""
+def cup(size: Size) -> Solids:
+    """The cup: rim, wall and base."""
     outer = sections.chain(
         [(0.0, size.outer_profile_m[0][1])], sections.smooth_curve(size.outer_profile_m)
     )
@@ -47,16 +40,15 @@ def cup(size: Size) -> ObjectModel:
         solids.revolve(sections.wall_profile(outer, inner)),
         [bottom_m + size.base_band_m, top_m - size.rim_band_m],
     )
-    parts = (
-        Part("rim", rim, CUP_PLASTIC),
-        Part("wall", wall, CUP_PLASTIC),
-        Part("base", base, CUP_PLASTIC),
-    )
-    return ObjectModel(parts, density_kg_m3=910.0)
+    return {
+        "rim": rim,
+        "wall": wall,
+        "base": base,
+    }
 
 
-def mug(size: Size) -> ObjectModel:
-    """Build the mug with parts rim, wall, base and handle."""
+def mug(size: Size) -> Solids:
+    """The mug: rim, wall, base and handle."""
     edge, radius = size.edge_radius_m, size.outer_radius_m
     outer = sections.chain(
         [(0.0, size.bottom_height_m)],
@@ -73,13 +65,12 @@ def mug(size: Size) -> ObjectModel:
         solid,
         [size.bottom_height_m + size.base_band_m, size.rim_height_m - size.rim_band_m],
     )
-    parts = (
-        Part("rim", rim, EARTHENWARE),
-        Part("wall", wall, EARTHENWARE),
-        Part("base", base, EARTHENWARE),
-        Part("handle", _mug_handle(size), EARTHENWARE),
-    )
-    return ObjectModel(parts, density_kg_m3=1900.0)
+    return {
+        "rim": rim,
+        "wall": wall,
+        "base": base,
+        "handle": _mug_handle(size),
+    }
 
 
 def _mug_handle(size: Size) -> Manifold:
@@ -102,8 +93,8 @@ def _mug_handle(size: Size) -> Manifold:
     return swept - keep_out
 
 
-def wine_glass(size: Size) -> ObjectModel:
-    """Build the wine glass with parts bowl, stem and base."""
+def wine_glass(size: Size) -> Solids:
+    """The wine glass: bowl, stem and base."""
     curve = sections.smooth_curve(size.outer_profile_m, samples=64)
     hollow = sections.offset_curve(curve, size.wall_thickness_m)
     hollow = hollow[
@@ -119,21 +110,12 @@ def wine_glass(size: Size) -> ObjectModel:
     )
     inner = inner[inner[:, 1] <= rim_m]
     stem_m = size.cavity_height_m - size.bottom_height_m - 0.001
-    parts = (
-        Part("bowl", solids.revolve(sections.wall_profile(outer, inner)), CLEAR_GLASS),
-        Part(
-            "stem",
-            solids.cylinder(size.stem_radius_m, stem_m).translate(
-                (0, 0, size.bottom_height_m + stem_m / 2)
-            ),
-            CLEAR_GLASS,
+    return {
+        "bowl": solids.revolve(sections.wall_profile(outer, inner)),
+        "stem": solids.cylinder(size.stem_radius_m, stem_m).translate(
+            (0, 0, size.bottom_height_m + stem_m / 2)
         ),
-        Part(
-            "base",
-            solids.cylinder(size.foot_radius_m, size.foot_thickness_m, segments=96).translate(
-                (0, 0, size.bottom_height_m + size.foot_thickness_m / 2)
-            ),
-            CLEAR_GLASS,
+        "base": solids.cylinder(size.foot_radius_m, size.foot_thickness_m, segments=96).translate(
+            (0, 0, size.bottom_height_m + size.foot_thickness_m / 2)
         ),
-    )
-    return ObjectModel(parts, density_kg_m3=2500.0)
+    }
