@@ -35,55 +35,38 @@ GRIP_OF_TYPE = {
     "Precision": "pinch",
 }
 
+_SHARE = pa.Check.in_range(0, 1)
+_GRIP = pa.Column(str, pa.Check.isin(sorted(set(GRIP_OF_TYPE.values()))))
+_SIDE, _AXIS = pa.Column(str, pa.Check.isin(SIDES)), pa.Column(str, pa.Check.isin(["x", "y", "z"]))
+# Position of the contact in the object's bounding box.
+POSITION = ("contact_x", "contact_y", "contact_z")
+_POSITION = {name: pa.Column(float, _SHARE) for name in POSITION}
 EVIDENCE_SCHEMA = pa.DataFrameSchema(
     {
-        "object": pa.Column(str),
-        "task": pa.Column(str),
-        "session": pa.Column(int),
-        "grip": pa.Column(str, pa.Check.isin(sorted(set(GRIP_OF_TYPE.values())))),
-        "part": pa.Column(str),
-        "palm_side": pa.Column(str, pa.Check.isin(SIDES)),
+        **{"object": pa.Column(str), "task": pa.Column(str), "session": pa.Column(int)},
+        **{"grip": _GRIP, "part": pa.Column(str), "palm_side": _SIDE},
         "palm_side_cosine": pa.Column(float, pa.Check.in_range(0.57, 1.0)),
-        "axis": pa.Column(str, pa.Check.isin(["x", "y", "z"])),
-        "palm_gap_mm": pa.Column(float, pa.Check.ge(0)),
-        "contact_x": pa.Column(float, pa.Check.in_range(0, 1)),
-        "contact_y": pa.Column(float, pa.Check.in_range(0, 1)),
-        "contact_z": pa.Column(float, pa.Check.in_range(0, 1)),
+        **{"axis": _AXIS, "palm_gap_mm": pa.Column(float, pa.Check.ge(0)), **_POSITION},
         "spread_deg": pa.Column(float),
     },
     strict=True,
     ordered=True,
 )
-
-
 PATTERN_SCHEMA = pa.DataFrameSchema(
     {
-        "class": pa.Column(str),
-        "task": pa.Column(str),
-        "grip": pa.Column(str, pa.Check.isin(sorted(set(GRIP_OF_TYPE.values())))),
-        "n": pa.Column(int, pa.Check.ge(1)),
-        "share": pa.Column(float, pa.Check.in_range(0, 1)),
+        **{"class": pa.Column(str), "task": pa.Column(str), "grip": _GRIP},
+        **{"n": pa.Column(int, pa.Check.ge(1)), "share": pa.Column(float, _SHARE)},
     },
     strict=True,
     unique=["class", "task", "grip"],
 )
-
 SUMMARY_SCHEMA = pa.DataFrameSchema(
     {
-        "object": pa.Column(str),
-        "task": pa.Column(str),
-        "grip": pa.Column(str),
-        "palm_side": pa.Column(str, pa.Check.isin(SIDES)),
-        "axis": pa.Column(str, pa.Check.isin(["x", "y", "z"])),
-        "n": pa.Column(int, pa.Check.ge(1)),
-        "share": pa.Column(float, pa.Check.in_range(0, 1)),
-        "palm_touches": pa.Column(float, pa.Check.in_range(0, 1)),
-        "palm_gap_mm": pa.Column(float, pa.Check.ge(0)),
-        "contact_x": pa.Column(float, pa.Check.in_range(0, 1)),
-        "contact_y": pa.Column(float, pa.Check.in_range(0, 1)),
-        "contact_z": pa.Column(float, pa.Check.in_range(0, 1)),
-        "spread_deg": pa.Column(float),
-        "part": pa.Column(str),
+        **{"object": pa.Column(str), "task": pa.Column(str), "grip": pa.Column(str)},
+        **{"palm_side": _SIDE, "axis": _AXIS, "n": pa.Column(int, pa.Check.ge(1))},
+        **{"share": pa.Column(float, _SHARE), "palm_touches": pa.Column(float, _SHARE)},
+        **{"palm_gap_mm": pa.Column(float, pa.Check.ge(0)), **_POSITION},
+        **{"spread_deg": pa.Column(float), "part": pa.Column(str)},
     },
     strict=True,
     ordered=True,
@@ -168,7 +151,7 @@ def session_evidence(
         "palm_side_cosine": round(cosine, 3),
         "axis": _nearest_side(hand.T_object_hand[:3, 0])[0][1],
         "palm_gap_mm": round(1e3 * max(float(distance_m[palm].min()), 0.0), 1),
-        **{f"contact_{name}": round(float(h), 3) for name, h in zip("xyz", height, strict=True)},
+        **{name: round(float(share), 3) for name, share in zip(POSITION, height, strict=True)},
         "spread_deg": round(float(np.degrees(hand.dofs_rad[0])), 1),
     }
 
@@ -184,11 +167,7 @@ def summarise(evidence: pd.DataFrame) -> pd.DataFrame:
     table = groups.agg(
         n=("session", "size"),
         palm_touches=("palm_gap_mm", lambda gap: (gap < PALM_CARRIES_MM).mean()),
-        palm_gap_mm=("palm_gap_mm", "median"),
-        contact_x=("contact_x", "median"),
-        contact_y=("contact_y", "median"),
-        contact_z=("contact_z", "median"),
-        spread_deg=("spread_deg", "median"),
+        **{name: (name, "median") for name in ("palm_gap_mm", *POSITION, "spread_deg")},
         part=("part", lambda parts: parts.value_counts().index[0]),
     )
     share = table.n / table.groupby(["object", "task"]).n.transform("sum")

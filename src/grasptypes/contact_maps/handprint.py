@@ -93,17 +93,9 @@ THUMB_DEG = 180.0
 
 def handprint(surface: HeldSurface, grip: str, placement: Placement, hand: HumanHand) -> Array:
     """Contact (N,) between 0 and 1 of a hand that holds the surface with a grip of the table."""
-    touches = {
-        "wrap": _wrap,
-        "enclose": _enclose,
-        "tripod": _tripod,
-        "pinch": _pinch,
-        "rim": _rim,
-    }[grip](surface, placement, hand)
-    contact = np.zeros(len(surface.points_m))
-    for touch in touches:
-        np.maximum(contact, touch, out=contact)
-    return contact * surface.mask
+    touches = _DIGITS[grip](surface, placement, hand)
+    contact = np.max([np.zeros(len(surface.points_m)), *touches], axis=0)
+    return np.asarray(contact * surface.mask)
 
 
 def _wrap(surface: HeldSurface, place: Placement, hand: HumanHand) -> list[Array]:
@@ -122,11 +114,10 @@ def _wrap(surface: HeldSurface, place: Placement, hand: HumanHand) -> list[Array
 
 
 def _enclose(surface: HeldSurface, place: Placement, hand: HumanHand) -> list[Array]:
-    directions = _spread(place)
-    reaches = [hand.thumb_reach_m] + [hand.finger_reach_m] * len(SPREAD_FINGERS_DEG)
+    reaches_m = dict.fromkeys(SPREAD_FINGERS_DEG, hand.finger_reach_m)
     digits = [
-        _trace(surface, place, direction, 0.0, reach_m, hand)
-        for direction, reach_m in zip(directions, reaches, strict=True)
+        _trace(surface, place, _around(place, angle_deg), 0.0, reach_m, hand)
+        for angle_deg, reach_m in ({THUMB_DEG: hand.thumb_reach_m} | reaches_m).items()
     ]
     palm = _exit(surface, place.centre_m, place.palm_side, hand.pad_radius_m, np.inf)
     return digits if palm is None else [*digits, _pad(surface, palm, hand.palm_radius_m)]
@@ -164,10 +155,6 @@ def _oppose(surface: HeldSurface, place: Placement, hand: HumanHand, reach_m: fl
         for offset, side in starts
     ]
     return [_pad(surface, point, hand.pad_radius_m) for point in exits if point is not None]
-
-
-def _spread(place: Placement) -> list[Array]:
-    return [_around(place, angle) for angle in (THUMB_DEG, *SPREAD_FINGERS_DEG)]
 
 
 def _around(place: Placement, angle_deg: float) -> Array:
@@ -239,3 +226,6 @@ def _plateau(ratio: Array) -> Array:
 def _facing(cosine: Array) -> Array:
     """0 for surfaces facing away from the skin, rising to 1 at 60 degrees."""
     return np.asarray(np.clip(2.0 * cosine, 0.0, 1.0))
+
+
+_DIGITS = {"wrap": _wrap, "enclose": _enclose, "tripod": _tripod, "pinch": _pinch, "rim": _rim}

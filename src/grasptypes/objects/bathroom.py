@@ -55,7 +55,7 @@ def _toothbrush_bristles(size: Size) -> Manifold:
         at = (np.arange(count) - (count - 1) / 2) * size.tuft_pitch_m
         axis = 0 if cut[0] < cut[2] else 2
         slits += [solids.box(cut).translate((x * (axis == 0), low_m, x * (axis == 2))) for x in at]
-    tufts = solids.rotate(solids.difference(block, *slits), z_deg=size.bristles_tilt_deg)
+    tufts = solids.difference(block, *slits).rotate((0.0, 0.0, size.bristles_tilt_deg))
     middle_y_m = (size.bristles_start_y_m + size.bristles_end_y_m) / 2
     return tufts.translate((size.bristles_x_m, middle_y_m, size.stations[3][2]))
 

@@ -98,11 +98,11 @@ def _scissors_blade(size: Size) -> Manifold:
     ]
     halves: tuple[list[ArrayLike], ...] = ([back, *tips], [lug])
     side, disc = (
-        solids.hull(
-            *(
+        Manifold.batch_hull(
+            [
                 solids.extrude(outline, high_m - low_m, centred=False).translate((0.0, 0.0, low_m))
                 for outline in outlines
-            )
+            ]
         )
         for outlines in halves
     )

@@ -12,31 +12,18 @@ from manifold3d import Manifold
 from grasptypes.objects import solids
 from grasptypes.settings.objects import Resolution
 
+_DIAGONAL = 1 / np.sqrt(2.0)
 # The axes and the diagonals of the coordinate planes; solids of revolution need the diagonals.
-_NORMALS = tuple(
-    tuple(direction / np.linalg.norm(direction))
-    for direction in np.array(
-        [
-            (1, 0, 0),
-            (0, 1, 0),
-            (0, 0, 1),
-            (1, 1, 0),
-            (1, -1, 0),
-            (1, 0, 1),
-            (1, 0, -1),
-            (0, 1, 1),
-            (0, 1, -1),
-        ],
-        dtype=np.float64,
-    )
+_NORMALS = (
+    *((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)),
+    *((_DIAGONAL, _DIAGONAL, 0.0), (_DIAGONAL, -_DIAGONAL, 0.0), (_DIAGONAL, 0.0, _DIAGONAL)),
+    *((_DIAGONAL, 0.0, -_DIAGONAL), (0.0, _DIAGONAL, _DIAGONAL), (0.0, _DIAGONAL, -_DIAGONAL)),
 )
+# Where planes are tried, as fractions of a piece's extent.
+_FRACTIONS = (0.3, 0.5, 0.7)
 
 
-def convex_parts(
-    parts: Sequence[Manifold],
-    resolution: Resolution,
-    cut_fractions: Sequence[float] = (0.3, 0.5, 0.7),
-) -> list[Manifold]:
+def convex_parts(parts: Sequence[Manifold], resolution: Resolution) -> list[Manifold]:
     """Cover solids with convex hulls that leave their hollows open.
 
     Starts from the construction parts and repeatedly cuts the piece whose hull has the most empty
@@ -46,7 +33,6 @@ def convex_parts(
     Args:
         parts: solids in metres; their union is the object.
         resolution: how many hulls, how much empty space, and how coarse they may be.
-        cut_fractions: where planes are tried, as fractions of a piece's extent.
 
     Returns:
         Convex solids, largest first.
@@ -58,7 +44,7 @@ def convex_parts(
     allowed = resolution.collision_max_gap_m * sum(part.surface_area() for part in coarse)
     most = resolution.collision_max_parts
     while len(heap) < most and -sum(entry[0] for entry in heap) > allowed:
-        for bit in _best_cut(heapq.heappop(heap)[2], cut_fractions):
+        for bit in _best_cut(heapq.heappop(heap)[2]):
             heapq.heappush(heap, (-_excess(bit), next(order), bit))
     hulls = [
         _lighten(
@@ -88,7 +74,7 @@ def _excess(piece: Manifold) -> float:
     return float(max(piece.hull().volume() - piece.volume(), 0.0))
 
 
-def _best_cut(piece: Manifold, fractions: Sequence[float]) -> list[Manifold]:
+def _best_cut(piece: Manifold) -> list[Manifold]:
     """Return the pieces of the cut that leaves the least empty space in the hulls."""
     corners = solids.to_mesh(piece)[0]
     best = [piece]
@@ -96,7 +82,7 @@ def _best_cut(piece: Manifold, fractions: Sequence[float]) -> list[Manifold]:
     for normal in _NORMALS:
         reach = corners @ np.asarray(normal)
         low, high = float(reach.min()), float(reach.max())
-        for fraction in fractions:
+        for fraction in _FRACTIONS:
             halves = piece.split_by_plane(normal, low + fraction * (high - low))
             bits = [bit for half in halves for bit in half.decompose() if not bit.is_empty()]
             excess = sum(_excess(bit) for bit in bits)

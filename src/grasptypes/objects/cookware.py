@@ -3,7 +3,7 @@
 import numpy as np
 from manifold3d import Manifold
 
-from grasptypes.objects import sections, solids
+from grasptypes.objects import lofts, sections, solids
 from grasptypes.objects.parts import Size, Solids
 
 
@@ -50,14 +50,15 @@ def _pan_handle(size: Size) -> Manifold:
     """Loft the handle along x, round its end in plan view, and cut the hole for hanging it."""
     rows = np.asarray(size.handle_stations_m)
     stations = np.linspace(rows[0, 0], rows[-1, 0], 40)
-    outlines = []
-    for low, high in sections.monotone_curve(rows[:, 0], rows[:, 1:], stations):
-        outline = sections.superellipse(
+    # Turned onto x, the first axis of an outline points to -z.
+    outlines = [
+        sections.superellipse(
             (high - low) / 2, size.handle_width_m / 2, size.handle_edge_exponent, 48
         )
-        # When lofting along x, the first axis of the outline points to -z.
-        outlines.append(outline - [(low + high) / 2, 0.0])
-    bar = solids.stack(outlines, stations, axis="x")
+        - [(low + high) / 2, 0.0]
+        for low, high in sections.monotone_curve(rows[:, 0], rows[:, 1:], stations)
+    ]
+    bar = solids.along(lofts.loft_along("z", stations, outlines), "x")
     half = size.handle_width_m / 2
     middle_m = rows[-1, 0] - half
     plan = solids.cylinder(half * 1.02, 0.1).translate((middle_m, 0, 0)) + solids.box(

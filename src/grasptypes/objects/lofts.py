@@ -14,7 +14,7 @@ Array = NDArray[np.float64]
 def loft_along(axis: str, stations_m: ArrayLike, outlines: Sequence[ArrayLike]) -> Manifold:
     """Loft outlines placed at increasing stations along x, y or z.
 
-    Unlike `solids.stack`, the outlines keep the object's own axes.
+    The outlines keep the object's own axes.
 
     Args:
         axis: "x" (outlines in y, z), "y" (outlines in x, z) or "z" (outlines in x, y).
@@ -66,9 +66,8 @@ def crowned_section(
     exponent: float,
     top_crown_m: float = 0.0,
     bottom_crown_m: float = 0.0,
-    samples: int = 96,
 ) -> Array:
-    """Trace a rounded rectangle whose top and bottom bulge, (samples, 2), counter-clockwise.
+    """Trace a rounded rectangle whose top and bottom bulge, (96, 2), counter-clockwise.
 
     Args:
         half_width_m: half width across the first axis, centred on 0.
@@ -79,7 +78,7 @@ def crowned_section(
         bottom_crown_m: how much higher the bottom is at the sides.
     """
     low, high = bottom_m + bottom_crown_m, top_m - top_crown_m
-    outline = even_superellipse(half_width_m, (high - low) / 2, exponent, samples)
+    outline = even_superellipse(half_width_m, (high - low) / 2, exponent, samples=96)
     above = outline[:, 1] / (high - low) + 0.5
     bulge = 1 - (outline[:, 0] / half_width_m) ** 2
     outline[:, 1] += (low + high) / 2

@@ -9,23 +9,20 @@ from scipy.interpolate import CubicSpline, PchipInterpolator
 Curve = NDArray[np.float64]
 
 
-def smooth_curve(points: ArrayLike, samples: int = 48, closed: bool = False) -> Curve:
+def smooth_curve(points: ArrayLike, samples: int = 48) -> Curve:
     """Draw a cubic spline through control points, parametrised by chord length.
 
     Args:
         points: (K, D) control points, K >= 2.
         samples: number of points to return, evenly spaced in chord length.
-        closed: join the last control point to the first; the joint is not repeated.
 
     Returns:
         (samples, D) points on the curve.
     """
     control = np.asarray(points, dtype=np.float64)
-    if closed:
-        control = np.vstack([control, control[:1]])
     chord = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(control, axis=0), axis=1))])
-    spline = CubicSpline(chord, control, bc_type="periodic" if closed else "natural")
-    return np.asarray(spline(np.linspace(0.0, chord[-1], samples, endpoint=not closed)))
+    spline = CubicSpline(chord, control, bc_type="natural")
+    return np.asarray(spline(np.linspace(0.0, chord[-1], samples)))
 
 
 def monotone_curve(stations: ArrayLike, values: ArrayLike, at: ArrayLike) -> Curve:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass
 from pathlib import Path
 
 import igl
@@ -36,36 +35,27 @@ SHAPE_TABLE = pa.DataFrameSchema(
 )
 
 
-@dataclass(frozen=True)
-class ShapeComparison:
-    """Results of a comparison; the Chamfer distances pool both directions.
-
-    Attributes:
-        chamfer_mm: mean distance from a surface sample to the other surface.
-        chamfer_p95_mm: its 95th percentile.
-        iou: volume of the intersection over volume of the union, 0 to 1.
-    """
-
-    chamfer_mm: float
-    chamfer_p95_mm: float
-    iou: float
-
-
 def compare(
     model: trimesh.Trimesh,
     reference: trimesh.Trimesh,
     surface_samples: int = 20_000,
     volume_samples: int = 300_000,
-) -> ShapeComparison:
-    """Compare two meshes (metres, same frame); they need not be watertight."""
+) -> dict[str, float]:
+    """Compare two meshes (metres, same frame); they need not be watertight.
+
+    Returns:
+        The columns of `SHAPE_TABLE` without the object. The Chamfer distances pool both directions:
+        mean and 95th percentile of the distance from a surface sample to the other surface; IoU is
+        the volume of the intersection over that of the union.
+    """
     there = _distances(sample_surface(model, surface_samples), reference)
     back = _distances(sample_surface(reference, surface_samples), model)
     pooled_mm = 1e3 * np.concatenate([there, back])
-    return ShapeComparison(
-        chamfer_mm=1e3 * float(there.mean() + back.mean()) / 2,
-        chamfer_p95_mm=float(np.percentile(pooled_mm, 95)),
-        iou=intersection_over_union(model, reference, volume_samples),
-    )
+    return {
+        "chamfer_mm": 1e3 * float(there.mean() + back.mean()) / 2,
+        "chamfer_p95_mm": float(np.percentile(pooled_mm, 95)),
+        "iou": intersection_over_union(model, reference, volume_samples),
+    }
 
 
 def compare_folder(
@@ -92,7 +82,7 @@ def compare_folder(
         surface = object_files.read_surface(folder / object_files.SURFACE)
         model = trimesh.Trimesh(surface.vertices / properties.scale, surface.faces, process=False)
         figures = compare(model, trimesh.load_mesh(path), surface_samples, volume_samples)
-        rows.append({"object": properties.object, **asdict(figures)})
+        rows.append({"object": properties.object, **figures})
     if not rows:
         raise InputError(references, "", "has no <object>.stl for any of the compared objects")
     table = pd.DataFrame(rows)

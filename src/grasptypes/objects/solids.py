@@ -95,7 +95,6 @@ def sweep(
     section: ArrayLike | Sequence[ArrayLike],
     scales: ArrayLike | None = None,
     up: Sequence[float] = (0.0, 0.0, 1.0),
-    closed: bool = False,
 ) -> Manifold:
     """Carry a section along a path.
 
@@ -104,7 +103,6 @@ def sweep(
         section: (N, 2) polygon, or K of them with equal N; the second axis points to `up`.
         scales: (K,) or (K, 2) factors on the section along the path.
         up: direction the section's second axis stays closest to; not along the path.
-        closed: join the end to the start, as for a ring.
     """
     centres = np.asarray(path, dtype=np.float64)
     polygons = np.asarray(section, dtype=np.float64)
@@ -113,32 +111,20 @@ def sweep(
     if scales is not None:
         factors = np.asarray(scales, dtype=np.float64).reshape(len(centres), -1)
         polygons = polygons * factors[:, None, :]
-    right, above = _path_frames(centres, np.asarray(up, dtype=np.float64), closed)
+    right, above = _path_frames(centres, np.asarray(up, dtype=np.float64))
     rings = (
         centres[:, None] + polygons[..., :1] * right[:, None] + polygons[..., 1:] * above[:, None]
     )
-    if not closed:
-        return loft(rings)
-    faces = _skin(len(rings) + 1, rings.shape[1]) % (len(rings) * rings.shape[1])
-    return from_mesh(rings.reshape(-1, 3), faces)
+    return loft(rings)
 
 
-def stack(outlines: Sequence[ArrayLike], heights_m: ArrayLike, axis: str = "z") -> Manifold:
-    """Loft (N, 2) outlines at increasing heights along an axis."""
-    rings = [
-        np.column_stack([outline, np.full(len(outline), height)])
-        for outline, height in zip(map(np.asarray, outlines), np.asarray(heights_m), strict=True)
-    ]
-    return along(loft(rings), axis)
-
-
-def box(size_m: Sequence[float], radius_m: float = 0.0, segments: int = 24) -> Manifold:
+def box(size_m: Sequence[float], radius_m: float = 0.0) -> Manifold:
     """Make a box centred on the origin, its edges rounded with the given radius."""
     if radius_m <= 0:
         return Manifold.cube(tuple(size_m), True)
     half = np.asarray(size_m) / 2 - radius_m
     corners = np.array(np.meshgrid(*([-1, 1],) * 3)).reshape(3, -1).T * half
-    ball = Manifold.sphere(radius_m, segments)
+    ball = Manifold.sphere(radius_m, 24)
     return Manifold.batch_hull([ball.translate(tuple(corner)) for corner in corners])
 
 
@@ -164,20 +150,9 @@ def cylinder(
     return along(Manifold.cylinder(height_m, radius_m, top, segments, True), axis)
 
 
-def capsule(start: Sequence[float], end: Sequence[float], radius_m: float) -> Manifold:
-    """Make a capsule of a segment between two points."""
-    ball = Manifold.sphere(radius_m, 32)
-    return Manifold.batch_hull([ball.translate(tuple(start)), ball.translate(tuple(end))])
-
-
-def torus(ring_radius_m: float, tube_radius_m: float, axis: str = "z") -> Manifold:
-    """Make a torus centred on the origin."""
-    return revolve(sections.circle(tube_radius_m, 32) + [ring_radius_m, 0.0], axis)
-
-
-def hull(*solids: Manifold) -> Manifold:
-    """Return the convex hull of solids."""
-    return Manifold.batch_hull(list(solids))
+def torus(ring_radius_m: float, tube_radius_m: float) -> Manifold:
+    """Make a torus around z, centred on the origin."""
+    return revolve(sections.circle(tube_radius_m, 32) + [ring_radius_m, 0.0])
 
 
 def union(*solids: Manifold) -> Manifold:
@@ -201,16 +176,6 @@ def slabs(solid: Manifold, cuts_m: Sequence[float], axis: str = "z") -> list[Man
         solid, below = solid.split_by_plane(normal, cut)
         slices.append(below)
     return [*slices, solid]
-
-
-def translate(solid: Manifold, x_m: float = 0.0, y_m: float = 0.0, z_m: float = 0.0) -> Manifold:
-    """Move a solid."""
-    return solid.translate((x_m, y_m, z_m))
-
-
-def rotate(solid: Manifold, x_deg: float = 0.0, y_deg: float = 0.0, z_deg: float = 0.0) -> Manifold:
-    """Rotate a solid about the fixed x, then y, then z axis through the origin."""
-    return solid.rotate((x_deg, y_deg, z_deg))
 
 
 def along(solid: Manifold, axis: str) -> Manifold:
@@ -240,12 +205,9 @@ def _cap(ring: Array) -> NDArray[np.int64]:
     return np.asarray(triangulate([np.column_stack([ring @ right, ring @ above])]), dtype=np.int64)
 
 
-def _path_frames(centres: Array, up: Array, closed: bool) -> tuple[Array, Array]:
+def _path_frames(centres: Array, up: Array) -> tuple[Array, Array]:
     """Return unit (K, 3) right and above vectors of the sections along a path."""
-    if closed:
-        tangents = np.roll(centres, -1, axis=0) - np.roll(centres, 1, axis=0)
-    else:
-        tangents = np.gradient(centres, axis=0)
+    tangents = np.gradient(centres, axis=0)
     tangents /= np.linalg.norm(tangents, axis=1, keepdims=True)
     right = np.cross(up, tangents)
     right /= np.linalg.norm(right, axis=1, keepdims=True)

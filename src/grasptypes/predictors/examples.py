@@ -99,5 +99,4 @@ def _label(label_of: pd.DataFrame, name: str, tasks: Sequence[str]) -> np.ndarra
 
 
 def _one_hot(named: pd.Series, tasks: Sequence[str]) -> np.ndarray:
-    position = {task: place for place, task in enumerate(tasks)}
-    return np.asarray(np.eye(len(tasks), dtype=np.float32)[named.map(position).to_numpy()])
+    return np.asarray(named.to_numpy()[:, None] == np.array(tasks), dtype=np.float32)

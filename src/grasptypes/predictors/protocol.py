@@ -39,13 +39,13 @@ def try_splits(
     Args:
         examples: with features as inputs if the backbone is frozen, else images.
         key: name of the computation, for its random numbers.
-        backbone: backbone to fine-tune, if the settings are not frozen.
+        backbone: backbone to fine-tune; None if it is frozen.
     """
-    if settings.frozen:
+    if backbone is None:
         heads, curves = fit(examples, members, settings, key)
         logits = [predict(heads, k, examples, member.test) for k, member in enumerate(members)]
     else:
-        curves, logits = _test_fine_tuned(examples, members, settings, key, _given(backbone))
+        curves, logits = _test_fine_tuned(examples, members, settings, key, backbone)
     metrics, predictions = score(examples, members, logits)
     return Outcome(metrics, curve_table(members, curves), predictions)
 
@@ -58,9 +58,9 @@ def train_final(
 ) -> tuple[BatchedMLP, Backbone | None]:
     """The final predictor, trained on all examples, and its backbone if fine-tuned."""
     everything = Member("all", 0, np.arange(len(examples.inputs)), np.arange(0))
-    if settings.frozen:
+    if backbone is None:
         return fit(examples, [everything], settings, key)[0], None
-    network, _ = fine_tune(_given(backbone), examples, everything, settings, key)
+    network, _ = fine_tune(backbone, examples, everything, settings, key)
     return network.head, network.backbone
 
 
@@ -78,9 +78,3 @@ def _test_fine_tuned(
         curves[:, number, 0] = losses
         logits.append(predict_pictures(network, examples, member.test, settings.finetuning.batch))
     return curves, logits
-
-
-def _given(backbone: Backbone | None) -> Backbone:
-    if backbone is None:
-        raise ValueError("fine-tuning needs a backbone")
-    return backbone

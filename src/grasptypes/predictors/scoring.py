@@ -100,18 +100,10 @@ def with_source(
 
 def curve_table(members: Sequence[Member], curves: np.ndarray) -> pd.DataFrame:
     """Loss curves (epochs, members, 2) as a table of :data:`CURVE_SCHEMA`."""
-    return pd.concat(
-        [
-            pd.DataFrame(
-                {
-                    "group": member.group,
-                    "seed": member.seed,
-                    "epoch": np.arange(1, len(curves) + 1),
-                    "train_loss": curves[:, number, 0],
-                    "test_loss": curves[:, number, 1],
-                }
-            )
-            for number, member in enumerate(members)
-        ],
-        ignore_index=True,
-    )
+    epochs = np.arange(1, len(curves) + 1)
+    tables = [
+        pd.DataFrame({"group": member.group, "seed": member.seed, "epoch": epochs})
+        .assign(train_loss=curves[:, number, 0], test_loss=curves[:, number, 1])
+        for number, member in enumerate(members)
+    ]  # fmt: skip
+    return pd.concat(tables, ignore_index=True)

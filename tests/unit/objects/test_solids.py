@@ -32,14 +32,6 @@ def test_straight_sweep_is_a_prism():
     )
 
 
-def test_closed_sweep_is_a_torus():
-    turn = 2 * np.pi * np.arange(128) / 128
-    ring = 0.03 * np.column_stack([np.cos(turn), np.sin(turn), 0 * turn])
-    swept = solids.sweep(ring, sections.circle(0.005, 64), closed=True)
-    assert swept.genus() == 1
-    assert swept.volume() == pytest.approx(2 * np.pi**2 * 0.03 * 0.005**2, rel=5e-3)
-
-
 def test_slabs_join_to_the_whole_again():
     solid = solids.revolve([(0, 0), (0.03, 0), (0.05, 0.1), (0, 0.1)])
     slices = solids.slabs(solid, [0.02, 0.07])
