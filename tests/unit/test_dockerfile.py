@@ -26,16 +26,3 @@ def test_every_copied_file_exists_and_gets_into_the_build() -> None:
         for source in sources:
             assert (ROOT / source).exists(), source
             assert source == "." or Path(source).parts[0] in ALLOWED, source
-
-
-def test_jobs_run_as_a_user_without_rights() -> None:
-    installing = next(i for i, step in enumerate(STEPS) if step == "RUN make setup")
-    users = [i for i, step in enumerate(STEPS) if step.startswith("USER ")]
-    assert [STEPS[i] for i in users] == ["USER grasptypes"]
-    assert users[0] < installing
-
-
-def test_only_what_git_holds_gets_into_the_build() -> None:
-    assert IGNORED[1] == "*"
-    assert all((ROOT / name).exists() for name in ALLOWED)
-    assert not ALLOWED & {".dvc", ".git", ".snakemake", ".venv", "data", "models", "mlruns"}

@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from grasptypes.files import read_npz, write_bytes, write_json, write_npz, zip_bytes
+from grasptypes.files import read_npz, write_json, write_npz, zip_bytes
 
 
 def test_npz_repeats_byte_for_byte_and_reads_back(tmp_path: Path) -> None:
@@ -40,8 +40,3 @@ def test_a_failed_write_leaves_the_old_file(tmp_path: Path) -> None:
         write_json(path, {"a": float("nan")})
     assert json.loads(path.read_text()) == {"a": 1}
     assert [file.name for file in tmp_path.iterdir()] == ["table.json"]
-
-
-def test_write_makes_the_folder(tmp_path: Path) -> None:
-    write_bytes(tmp_path / "deep" / "er" / "file", b"content")
-    assert (tmp_path / "deep" / "er" / "file").read_bytes() == b"content"

@@ -11,7 +11,7 @@ import pytest
 from learning import small_checkout
 from PIL import Image
 
-from grasptypes.runtime import COMMON_INSTRUCTIONS, has_home, pin_runtime, processor_features
+from grasptypes.runtime import has_home, pin_runtime, processor_features
 
 ROOT = Path(__file__).parents[2]
 USED = """
@@ -153,7 +153,3 @@ def test_the_processors_features_are_read(tmp_path):
     description.write_text("processor\t: 0\nflags\t\t: fpu avx2 fma\nbugs\t\t: none\n")
     assert processor_features(description) == {"fpu", "avx2", "fma"}
     assert processor_features(tmp_path / "none") == set()
-
-
-def test_the_instructions_are_those_of_one_processor():
-    assert COMMON_INSTRUCTIONS["OPENBLAS_CORETYPE"].lower() == COMMON_INSTRUCTIONS["NUMBA_CPU_NAME"]

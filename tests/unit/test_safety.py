@@ -39,11 +39,3 @@ def risks(tree: ast.AST) -> Iterator[str]:
 @pytest.mark.parametrize("path", SOURCES, ids=lambda path: str(path.relative_to(ROOT)))
 def test_no_call_runs_what_a_file_holds(path):
     assert list(risks(ast.parse(path.read_text(encoding="utf-8")))) == []
-
-
-@pytest.mark.parametrize(
-    "line", ["eval(x)", "np.load(x)", "np.load(x, allow_pickle=True)", "torch.load(x)",
-             "torch.load(x, weights_only=False)", "subprocess.run(x, shell=True)"],
-)  # fmt: skip
-def test_the_check_finds_what_it_looks_for(line):
-    assert list(risks(ast.parse(line)))

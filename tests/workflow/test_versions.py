@@ -63,40 +63,6 @@ def test_an_experiment_elsewhere_makes_only_what_it_changes(changed: Repository)
     assert changed.is_clean()
 
 
-@pytest.mark.parametrize(
-    ("key", "value", "first", "untouched"),
-    [
-        ("predictors.epochs", 7, "train_predictor", "extract_features"),
-        ("renders.fill", 0.8, "render_object", "synthesize_grasps"),
-        ("grasp_types.thresholds.large_span_m", 0.08, "label_grasps", "synthesize_grasps"),
-        ("contact_maps.threshold", 0.41, "map_contacts", "render_object"),
-    ],
-)
-def test_a_changed_parameter_is_noticed_by_both(
-    changed: Repository, key: str, value: float, first: str, untouched: str
-) -> None:
-    changed.set_param(key, value)
-    planned = changed.planned("all")
-    assert planned[first] > 0
-    assert planned[untouched] == 0
-    assert not changed.dvc_is_clean()
-
-
-def test_a_changed_module_reruns_what_imports_it_and_a_comment_nothing(
-    changed: Repository,
-) -> None:
-    module = changed.path / "src/grasptypes/labels/grasp_type.py"
-    text = module.read_text()
-    module.write_text(text + "\n# A remark.\n")
-    assert changed.snakemake_is_clean("all")
-    module.write_text(text + "\nUNUSED = 1\n")
-    os.utime(module, (0, 0))  # an old file in its place, as unzip leaves it
-    planned = changed.planned("all")
-    assert planned["label_grasps"] == 1
-    assert planned["render_object"] == planned["prepare_object"] == 0
-    assert not changed.dvc_is_clean()
-
-
 def test_touching_every_file_changes_nothing(changed: Repository) -> None:
     changed.run("bash", "-c", "find data reports models src workflow -type f | xargs touch")
     assert changed.is_clean()

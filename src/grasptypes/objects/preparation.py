@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -22,10 +23,9 @@ def prepare(
     name: str, imported: ImportedModel, resolution: Resolution, folder: str | Path
 ) -> ObjectGeometry:
     """Write an object's five files (see `object_files`)."""
-    folder, model, scale = Path(folder), imported.model, imported.scale
-    parts = scaled_parts(model, scale)
+    folder, parts = Path(folder), scaled_parts(imported.model, imported.scale)
     surface = part_surface(parts, resolution.surface_tolerance_m, resolution.surface_edge_m)
-    properties = physical_properties(name, model, scale, imported.mass_kg, imported.repairs)
+    properties = physical_properties(name, imported)
     hulls = collision.convex_parts([part.solid for part in parts], resolution)
     # A twentieth of the spacing is lost between the nodes anyway.
     outline = solids.to_mesh(joined(parts).simplify(resolution.grid_spacing_m / 20))
@@ -43,12 +43,7 @@ def prepare(
 def scaled_parts(model: ObjectModel, scale: float) -> list[Part]:
     """Return the model's parts at `scale`, as manifold3d originals whose faces can be traced."""
     return [
-        Part(
-            part.name,
-            part.solid.scale((scale, scale, scale)).as_original(),
-            part.material,
-            part.density_kg_m3,
-        )
+        replace(part, solid=part.solid.scale((scale, scale, scale)).as_original())
         for part in model.parts
     ]
 
@@ -82,14 +77,9 @@ def part_surface(parts: list[Part], tolerance_m: float, edge_m: float) -> Surfac
     return Surface(vertices, faces, part_index, np.array(names))
 
 
-def physical_properties(
-    name: str,
-    model: ObjectModel,
-    scale: float,
-    mass_kg: float | None = None,
-    repairs: tuple[str, ...] = (),
-) -> Properties:
+def physical_properties(name: str, imported: ImportedModel) -> Properties:
     """Mass properties of the model's volume, or of its surface if it has a shell thickness."""
+    model, scale = imported.model, imported.scale
     parts = scaled_parts(model, scale)
     densities = [part.density_kg_m3 or model.density_kg_m3 for part in parts]
     solid = joined(parts)
@@ -104,7 +94,7 @@ def physical_properties(
         areal = thickness_m * np.array(densities)[face_parts(solid, parts)]
         bodies = [inertia.shell_masses(vertices, faces, areal)]
     mass, centre_m, tensor = inertia.mass_properties(inertia.together(bodies))
-    factor = 1.0 if mass_kg is None else mass_kg / mass
+    factor = 1.0 if imported.mass_kg is None else imported.mass_kg / mass
     return Properties(
         object=name,
         scale=scale,
@@ -116,7 +106,7 @@ def physical_properties(
         volume_m3=solid.volume(),
         watertight=True,
         bounds_m=[vertices.min(axis=0).tolist(), vertices.max(axis=0).tolist()],
-        repairs=list(repairs),
+        repairs=list(imported.repairs),
     )
 
 
@@ -136,9 +126,8 @@ def visual_glb(parts: list[Part], crease_deg: float) -> bytes:
             vertices[used], local.reshape(-1, 3), vertex_normals=normals[used], process=False
         )
         shown.visual = trimesh.visual.TextureVisuals(material=_pbr(part.name, part.material))
-        scene.add_geometry(
-            shown, geom_name=f"{part.name}_{index}", node_name=f"{part.name}_{index}"
-        )
+        called = f"{part.name}_{index}"
+        scene.add_geometry(shown, geom_name=called, node_name=called)
     return bytes(scene.export(file_type="glb", include_normals=True))
 
 

@@ -61,8 +61,10 @@ def chosen(logits: ArrayLike) -> np.ndarray:
     return types
 
 
-def evaluate(logits: ArrayLike, labels: ArrayLike, probabilities: ArrayLike) -> dict[str, float]:
-    """Means of the three measures over the samples.
+def measures(
+    logits: ArrayLike, labels: ArrayLike, probabilities: ArrayLike
+) -> dict[str, np.ndarray]:
+    """The three measures (N,) of each sample, by their names in :data:`METRICS`.
 
     Args:
         logits: (N, K) outputs of a predictor.
@@ -71,12 +73,16 @@ def evaluate(logits: ArrayLike, labels: ArrayLike, probabilities: ArrayLike) -> 
     """
     types = chosen(logits)
     return {
-        "angular_similarity": float(
-            angular_similarity(softmax(logits, axis=-1), probabilities).mean()
-        ),
-        "multilabel_accuracy": float(multilabel_accuracy(types, labels).mean()),
-        "multilabel_precision": float(multilabel_precision(types, labels).mean()),
+        "angular_similarity": angular_similarity(softmax(logits, axis=-1), probabilities),
+        "multilabel_accuracy": multilabel_accuracy(types, labels),
+        "multilabel_precision": multilabel_precision(types, labels),
     }
+
+
+def evaluate(logits: ArrayLike, labels: ArrayLike, probabilities: ArrayLike) -> dict[str, float]:
+    """Means of the three measures over the samples, see :func:`measures`."""
+    values = measures(logits, labels, probabilities)
+    return {name: float(value.mean()) for name, value in values.items()}
 
 
 def _directions(vectors: ArrayLike) -> np.ndarray:

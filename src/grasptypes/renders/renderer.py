@@ -17,7 +17,7 @@ import numpy as np
 from PIL import Image
 
 from grasptypes.renders.gl_platform import PLATFORM_VARIABLE, choose_platform
-from grasptypes.renders.scene import Part, ground_light, recolour, surface_points, viewpoints
+from grasptypes.renders.scene import Part, ground_light, recolour, surface_points, unit, viewpoints
 from grasptypes.seeds import rng
 from grasptypes.settings.renders import CameraSettings
 
@@ -54,16 +54,8 @@ class Camera:
 
     def views(self, parts: Sequence[Part], count: int, key: str, seed: int) -> Views:
         """``count`` random views of an object; the same ones for the same ``key`` and ``seed``."""
-        settings = self.settings
         vertices = np.concatenate([part.vertices for part in parts])
-        T_object_camera = viewpoints(
-            vertices,
-            count,
-            settings.field_of_view_rad,
-            settings.fill,
-            settings.min_distance_radii,
-            rng("viewpoints", key, seed),
-        )
+        T_object_camera = viewpoints(vertices, count, self.settings, rng("viewpoints", key, seed))
         return Views(self, parts, T_object_camera, key, seed)
 
     def scene(self, parts: Sequence[Part]) -> tuple[pyrender.Scene, pyrender.Node, list[Any]]:
@@ -100,20 +92,9 @@ class Camera:
         self, picture: np.ndarray, points: np.ndarray, T_object_camera: np.ndarray
     ) -> np.ndarray:
         """Compose an image of :meth:`shoot` with the ground and shadow: (size, size, 3) uint8."""
-        settings = self.settings
         ground = (255 - picture[..., 3]) * np.float32(1 / 255)
-        if settings.shadow_strength > 0:
-            ground *= ground_light(
-                points,
-                T_object_camera,
-                settings.size_px,
-                settings.field_of_view_rad,
-                settings.ground_elevation_rad,
-                _unit(settings.lights[0].direction),
-                settings.shadow_softness_px,
-                settings.shadow_strength,
-                settings.shadow_fading,
-            )
+        if self.settings.shadow_strength > 0:
+            ground *= ground_light(points, T_object_camera, self.settings)
         colour = self._background * ground[..., None]
         colour += picture[..., :3]
         colour += np.float32(0.5)
@@ -213,14 +194,10 @@ def _material(pyrender: Any, part: Part) -> Any:
     )
 
 
-def _unit(vector: Sequence[float] | np.ndarray) -> np.ndarray:
-    return np.asarray(np.asarray(vector, dtype=float) / np.linalg.norm(vector))
-
-
 def _looking_along(direction: np.ndarray) -> np.ndarray:
     """Pose (4, 4) whose -z axis points along ``direction``."""
-    z = -_unit(direction)
-    x = _unit(np.cross((0.0, 1.0, 0.0), z) if abs(z[1]) < 0.99 else (1.0, 0.0, 0.0))
+    z = -unit(direction)
+    x = unit(np.cross((0.0, 1.0, 0.0), z) if abs(z[1]) < 0.99 else (1.0, 0.0, 0.0))
     pose = np.eye(4)
     pose[:3, 0], pose[:3, 1], pose[:3, 2] = x, np.cross(z, x), z
     return pose

@@ -12,11 +12,13 @@ from pathlib import Path
 
 import numpy as np
 import trimesh
+from numpy.typing import ArrayLike
 from PIL import Image
 from scipy.ndimage import gaussian_filter
 from scipy.spatial.transform import Rotation
 
 from grasptypes.errors import InputError, parsing
+from grasptypes.settings.renders import CameraSettings
 
 # Relative luminance of linear RGB (ITU-R BT.709).
 _LUMINANCE = np.array([0.2126, 0.7152, 0.0722])
@@ -113,21 +115,14 @@ def recolour(parts: Sequence[Part], amount: float, rng: np.random.Generator) -> 
 
 
 def viewpoints(
-    vertices: np.ndarray,
-    count: int,
-    field_of_view_rad: float,
-    fill: float,
-    min_distance_radii: float,
-    rng: np.random.Generator,
+    vertices: np.ndarray, count: int, settings: CameraSettings, rng: np.random.Generator
 ) -> np.ndarray:
     """Camera poses uniform on the sphere, randomly rolled, at distances that frame the object.
 
+    The smallest distance keeps a view along a handle from being distorted.
+
     Args:
         vertices: (V, 3) points of the object in metres.
-        field_of_view_rad: full angle of the square image.
-        fill: share of the half image that the outermost vertex reaches.
-        min_distance_radii: smallest distance of the camera from the centre of the bounding box, in
-            radii of the object, so that a view along a handle is not distorted.
 
     Returns:
         (count, 4, 4) T_object_camera.
@@ -137,8 +132,9 @@ def viewpoints(
     radius_m = float(np.linalg.norm(offsets, axis=1).max())
     R_object_camera = Rotation.random(count, rng).as_matrix()
     in_camera = np.einsum("vi,nij->nvj", offsets, R_object_camera)
-    reach = np.abs(in_camera[..., :2]).max(axis=-1) / (fill * np.tan(field_of_view_rad / 2))
-    distance_m = np.maximum((reach + in_camera[..., 2]).max(axis=1), min_distance_radii * radius_m)
+    seen = settings.fill * np.tan(settings.field_of_view_rad / 2)
+    framing_m = (np.abs(in_camera[..., :2]).max(axis=-1) / seen + in_camera[..., 2]).max(axis=1)
+    distance_m = np.maximum(framing_m, settings.min_distance_radii * radius_m)
     T_object_camera = np.tile(np.eye(4), (count, 1, 1))
     T_object_camera[:, :3, :3] = R_object_camera
     T_object_camera[:, :3, 3] = centre + R_object_camera[:, :, 2] * distance_m[:, None]
@@ -157,54 +153,49 @@ def surface_points(parts: Sequence[Part], count: int, rng: np.random.Generator) 
 
 
 def ground_light(
-    points: np.ndarray,
-    T_object_camera: np.ndarray,
-    size_px: int,
-    field_of_view_rad: float,
-    elevation_rad: float,
-    light_direction: np.ndarray,
-    softness_px: float,
-    strength: float,
-    fading: float,
+    points: np.ndarray, T_object_camera: np.ndarray, settings: CameraSettings
 ) -> np.ndarray:
     """Share of light that reaches the ground in each pixel when the object rests on it.
 
-    The camera looks down at the ground plane at ``elevation_rad``; the plane touches the object's
-    lowest point. Each point casts its shadow along the light, fainter the higher it is.
+    The camera looks down at the ground plane, which touches the object's lowest point. Each point
+    casts its shadow along the first light, fainter the higher it is.
 
     Args:
         points: (N, 3) surface points, object frame, metres.
         T_object_camera: (4, 4).
-        light_direction: (3,) direction in which the light travels, camera frame.
-        softness_px: standard deviation of the shadow's blur.
-        strength: share of the light that the deepest shadow removes.
-        fading: the highest point casts exp(-fading) of a full shadow.
 
     Returns:
-        (size_px, size_px) float32 in [1 - strength, 1].
+        (size, size) float32 from 1 - ``shadow_strength`` to 1.
     """
+    elevation_rad, size_px = settings.ground_elevation_rad, settings.size_px
+    light_direction = unit(settings.lights[0].direction)
     up = np.array([0.0, np.cos(elevation_rad), np.sin(elevation_rad)])
     in_camera = (points - T_object_camera[:3, 3]) @ T_object_camera[:3, :3]
     height_m = in_camera @ up
     height_m -= height_m.min()
     shadow = in_camera + np.outer(height_m / -(light_direction @ up), light_direction)
     cells = size_px // 4  # a soft shadow needs no finer raster
-    scale = cells / (2 * np.tan(field_of_view_rad / 2))
+    scale = cells / (2 * np.tan(settings.field_of_view_rad / 2))
     column = cells / 2 + scale * shadow[:, 0] / -shadow[:, 2]
     row = cells / 2 - scale * shadow[:, 1] / -shadow[:, 2]
-    weight = np.exp(-fading * height_m / height_m.max())
+    weight = np.exp(-settings.shadow_fading * height_m / height_m.max())
     # A margin as wide as the raster keeps shadows cast from outside the image.
     place = np.clip(np.floor([row, column]).astype(int) + cells, 0, 3 * cells - 1)
     counts = np.bincount(place[0] * 3 * cells + place[1], weight, (3 * cells) ** 2)
     raster = counts.reshape(3 * cells, 3 * cells).astype(np.float32)
     raster[[0, -1]] = raster[:, [0, -1]] = 0  # where everything farther away was clipped to
     # Blur only what can reach the image: up to four standard deviations.
-    blur_cells = softness_px / 4
+    blur_cells = settings.shadow_softness_px / 4
     reach = min(int(np.ceil(4 * blur_cells)) + 1, cells)
     seen = slice(cells - reach, 2 * cells + reach)
     blurred = gaussian_filter(raster[seen, seen], blur_cells, truncate=4)
     blurred = blurred[reach : reach + cells, reach : reach + cells]
     usual = float(blurred.sum() / max((blurred > blurred.max() / 10).sum(), 1)) + 1e-9
-    light = 1 - strength * (1 - np.exp(-2.0 * blurred / usual))
+    light = 1 - settings.shadow_strength * (1 - np.exp(-2.0 * blurred / usual))
     coarse = Image.fromarray(light.astype(np.float32))
     return np.asarray(coarse.resize((size_px, size_px), Image.Resampling.BILINEAR))
+
+
+def unit(vector: ArrayLike) -> np.ndarray:
+    """A vector (3,) scaled to length 1."""
+    return np.asarray(np.asarray(vector, dtype=float) / np.linalg.norm(vector))

@@ -5,16 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pandas as pd
 import pandera.pandas as pa
-from scipy.special import softmax
 
 from grasptypes.labels.samples import LABELS, TYPES
-from grasptypes.predictors.metrics import (
-    METRICS,
-    angular_similarity,
-    chosen,
-    multilabel_accuracy,
-    multilabel_precision,
-)
+from grasptypes.predictors.metrics import METRICS, chosen, measures
 from grasptypes.predictors.predictor import VARIANTS
 
 KNOWN, UNSEEN = "known", "unseen"
@@ -87,13 +80,7 @@ def by_object(predictions: pd.DataFrame, samples: pd.DataFrame) -> pd.DataFrame:
         columns object and `METRICS`.
     """
     truth = labels_for(predictions, samples)
-    logits = predictions[list(LOGITS)].to_numpy(dtype=np.float64)
-    named = chosen(logits)
-    values = {
-        "angular_similarity": angular_similarity(softmax(logits, axis=-1), truth.astype(float)),
-        "multilabel_accuracy": multilabel_accuracy(named, truth),
-        "multilabel_precision": multilabel_precision(named, truth),
-    }
+    values = measures(predictions[list(LOGITS)].to_numpy(dtype=np.float64), truth, truth)
     table = pd.DataFrame({"object": predictions["object"].to_numpy(), **values})
     return table.groupby("object", as_index=False)[list(METRICS)].mean().round(6)
 

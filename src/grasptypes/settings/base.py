@@ -79,6 +79,9 @@ Many = Annotated[tuple[T, ...], Field(strict=False)]
 Unique = Annotated[tuple[T, ...], Field(strict=False), AfterValidator(_unique)]
 Pair = Annotated[tuple[T, T], Field(strict=False)]
 Triple = Annotated[tuple[T, T, T], Field(strict=False)]
+# Limits that many keys have.
+Share = Annotated[float, Field(ge=0, le=1)]
+Weight = Annotated[float, Field(ge=0, le=100_000)]
 # Safe in file names and shells, and preserved by every table.
 Name = Annotated[str, StringConstraints(pattern="^[a-z][a-z0-9_]*$"), AfterValidator(_present)]
 

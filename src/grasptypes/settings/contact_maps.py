@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from grasptypes.settings.base import Many, Settings, setting
+from grasptypes.settings.base import Many, Settings, Share, setting
 
 
 class HandLengths(Settings):
@@ -51,9 +51,7 @@ class MeasuredMapSettings(Settings):
     max_gap_m: float = setting(
         "maximum distance from a surface point to its nearest vertex of the scan", gt=0, le=0.05
     )
-    min_seen_share: float = setting(
-        "smallest share of the surface points that the scan must show", ge=0, le=1
-    )
+    min_seen_share: Share = setting("smallest share of the surface points that the scan must show")
     placements: int = setting("placements that a person compares", ge=1, le=10000)
     sharpness: float = setting(
         "power of a placement's agreement with the map that weights it", ge=0, le=100

@@ -7,7 +7,7 @@ from typing import Annotated, Literal, Self
 
 from pydantic import AfterValidator, Field, model_validator
 
-from grasptypes.settings.base import MisplacedError, Name, Pair, Settings, Unique, setting
+from grasptypes.settings.base import MisplacedError, Name, Pair, Settings, Share, Unique, setting
 
 CATALOGUE = (
     "apple", "banana", "bowl", "cell_phone", "cup", "flashlight", "hammer", "knife", "light_bulb",
@@ -105,14 +105,10 @@ class ImportLimits(Settings):
     max_size_m: float = setting("largest allowed longest extent", gt=0)
     max_box_m3: float = setting("largest allowed volume of the bounding box", gt=0)
     rebuild_cells: int = setting("cells along the longest extent of a rebuilt mesh", ge=16, le=512)
-    max_open_share: float = setting(
-        "share of enclosed space of uncertain winding number", ge=0, le=1
-    )
+    max_open_share: Share = setting("share of enclosed space of uncertain winding number")
     max_faces: int = setting("maximum number of faces of a mesh", ge=4)
     max_file_mb: float = setting("largest size of a mesh file", gt=0)
-    min_volume_share: float = setting(
-        "smallest volume divided by the cube of the longest extent", ge=0, le=1
-    )
+    min_volume_share: Share = setting("smallest volume divided by the cube of the longest extent")
 
 
 class ComparisonSettings(Settings):

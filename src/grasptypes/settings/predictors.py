@@ -6,7 +6,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from grasptypes.settings.base import Settings, Triple, Unique, setting
+from grasptypes.settings.base import Settings, Share, Triple, Unique, setting
 
 
 class BackboneSettings(Settings):
@@ -48,7 +48,7 @@ class PredictorSettings(Settings):
     components: int = setting(
         "number of feature directions in which the first layer is trained", ge=1, le=4096
     )
-    whitening: float = setting("0 leaves the directions' variances, 1 makes them equal", ge=0, le=1)
+    whitening: Share = setting("0 leaves the directions' variances, 1 makes them equal")
     epochs: int = setting("passes over the training examples", ge=1, le=10000)
     batch: int = setting("examples per step", ge=1, le=65536)
     learning_rate: float = setting("largest step of AdamW", gt=0, le=1)

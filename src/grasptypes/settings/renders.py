@@ -6,7 +6,7 @@ from typing import Annotated
 
 from pydantic import Field
 
-from grasptypes.settings.base import Many, Settings, Triple, setting
+from grasptypes.settings.base import Many, Settings, Share, Triple, setting
 
 
 class Light(Settings):
@@ -35,10 +35,8 @@ class CameraSettings(Settings):
     min_distance_radii: float = setting(
         "smallest camera distance, in radii of the object", ge=1.2, le=100
     )
-    colour_randomisation: float = setting(
-        "0 keeps the materials' colours, 1 replaces them", ge=0, le=1
-    )
-    ambient: float = setting("ambient light, linear", ge=0, le=1)
+    colour_randomisation: Share = setting("0 keeps the materials' colours, 1 replaces them")
+    ambient: Share = setting("ambient light, linear")
     lights: Many[Light] = setting(
         "lights that move with the camera; the first casts the shadow",
         min_length=1,
@@ -47,13 +45,11 @@ class CameraSettings(Settings):
     background_rgb: Triple[Annotated[int, Field(ge=0, le=255)]] = setting(
         "colour of the ground, levels of 255"
     )
-    vignette: float = setting("share by which the ground is darker in the corners", ge=0, le=1)
+    vignette: Share = setting("share by which the ground is darker in the corners")
     ground_elevation_rad: float = setting(
         "angle at which the camera looks down on the ground", ge=0.1, le=1.57
     )
-    shadow_strength: float = setting(
-        "share of the light that the deepest shadow removes", ge=0, le=1
-    )
+    shadow_strength: Share = setting("share of the light that the deepest shadow removes")
     shadow_softness_px: float = setting("standard deviation of the shadow's blur", ge=0, le=100)
     shadow_fading: float = setting(
         "the highest point casts exp(-fading) of the lowest point's shadow", ge=0, le=100

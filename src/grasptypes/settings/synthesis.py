@@ -6,7 +6,7 @@ from typing import Annotated
 
 from pydantic import Field
 
-from grasptypes.settings.base import Many, Pair, Settings, setting
+from grasptypes.settings.base import Many, Pair, Settings, Share, Weight, setting
 
 Bound = Annotated[float, Field(ge=-1, le=1)]
 
@@ -63,7 +63,7 @@ class CandidateSettings(Settings):
     """How candidates are drawn."""
 
     number: int = setting("candidates per session", ge=1, le=100000)
-    follow_share: float = setting("share that follows the person's placement", ge=0, le=1)
+    follow_share: Share = setting("share that follows the person's placement")
     position_sd_m: float = setting("standard deviation of the target point", ge=0, le=0.1)
     tilt_sd_rad: float = setting("standard deviation of approach and roll", ge=0, le=1.6)
     rolls: int = setting("evenly spaced rolls of candidates that do not follow", ge=1, le=360)
@@ -83,22 +83,14 @@ class ClosingSettings(Settings):
 class EnergySettings(Settings):
     """ContactGrasp's energy."""
 
-    contact_threshold: float = setting("contact above which a point attracts", ge=0, le=1)
+    contact_threshold: Share = setting("contact above which a point attracts")
     attraction_points: int = setting("maximum number of attracting points", ge=1, le=10000)
     repulsion_points: int = setting("maximum number of repelling points", ge=0, le=10000)
-    attraction_weight: float = setting(
-        "per metre between hand and an attracting point", ge=0, le=100000
-    )
-    repulsion_weight: float = setting(
-        "per metre between hand and a repelling point", ge=0, le=100000
-    )
-    thumb_weight: float = setting(
-        "per metre between finger 3 and the nearest attracting point", ge=0, le=100000
-    )
-    penetration_weight: float = setting("per metre of penetration of the object", ge=0, le=100000)
-    self_collision_weight: float = setting(
-        "per metre of penetration between links", ge=0, le=100000
-    )
+    attraction_weight: Weight = setting("per metre between hand and an attracting point")
+    repulsion_weight: Weight = setting("per metre between hand and a repelling point")
+    thumb_weight: Weight = setting("per metre between finger 3 and the nearest attracting point")
+    penetration_weight: Weight = setting("per metre of penetration of the object")
+    self_collision_weight: Weight = setting("per metre of penetration between links")
     range_m: float = setting("distance above which terms are constant", gt=0, le=0.02)
     repulsion_offset_m: float = setting(
         "largest distance of the nearest hand point from a repelling point's normal", ge=0, le=0.1
@@ -112,7 +104,7 @@ class EquilibriumSettings(Settings):
     cone_edges: int = setting("edges of a friction pyramid", ge=3, le=64)
     contact_m: float = setting("gap below which points touch", gt=0, le=0.01)
     iterations: int = setting("steps of Gilbert's algorithm", ge=1, le=10000)
-    weight: float = setting("per newton of wrench residual", ge=0, le=100000)
+    weight: Weight = setting("per newton of wrench residual")
 
 
 class ShapeSettings(Settings):
@@ -122,9 +114,7 @@ class ShapeSettings(Settings):
     closing_weight: float = setting(
         "weight of the closing direction relative to the unit normal", ge=0, le=100
     )
-    weight: float = setting(
-        "cost of a measure that falls short of its minimum by 100 %", ge=0, le=100000
-    )
+    weight: Weight = setting("cost of a measure that falls short of its minimum by 100 %")
     kept: float = setting("deviation below which a held hand has kept its grip", ge=0, le=3)
 
 
@@ -150,9 +140,7 @@ class RankingSettings(Settings):
         "penetration depth above which a candidate is not ranked", ge=0, le=0.05
     )
     apart_m: float = setting("smallest difference between tries", ge=0, le=0.2)
-    rotation_length_m: float = setting(
-        "length equivalent of a radian in that difference", ge=0, le=1
-    )
+    rotation_length_m: Share = setting("length equivalent of a radian in that difference")
 
 
 class SynthesisSettings(Settings):

@@ -64,11 +64,3 @@ def test_a_hand_touches_only_what_it_may_and_near_its_centre(stick, grip):
     assert not contact[~stick.mask].any()
     touched = stick.points_m[contact > 0.5]
     assert np.abs(touched[:, 2] - place.centre_m[2]).max() < HAND.breadth_m
-
-
-def test_a_hand_is_as_large_as_its_length_says():
-    small, large = (HumanHand.of_length(length_m, SETTINGS.hand) for length_m in (0.1, 0.2))
-    assert large.span_m == pytest.approx(2 * small.span_m)
-    offsets = large.finger_offsets_m(3)
-    assert offsets.sum() == pytest.approx(0.0)
-    np.testing.assert_allclose(np.diff(offsets), large.breadth_m / 4)

@@ -13,9 +13,7 @@ from grasptypes.labels.agreement import (
     THRESHOLD_SCHEMA,
     LabelledGrasps,
     agreement,
-    confusion,
     cross_validate,
-    describe_fit,
     fit_thresholds,
     measure_published,
 )
@@ -50,13 +48,6 @@ def test_a_row_an_object_and_one_for_all():
     assert table.kappa.tolist() == [0.0, 1.0, 0.6]
 
 
-def test_confusion_counts_people_in_rows():
-    grasps = LabelledGrasps(np.array(["a"] * 3), np.array([0, 0, 5]), Measures(*np.ones((4, 3))))
-    counts = confusion(grasps, np.array([0, 3, 5]))
-    assert counts[0, 0] == counts[0, 3] == counts[5, 5] == 1
-    assert counts.sum() == 3
-
-
 def test_the_fit_finds_thresholds_that_made_the_labels():
     fitted = fit_thresholds(made_up(), SOFTNESS)
     np.testing.assert_allclose(fitted, TRUE, rtol=0.12)
@@ -73,13 +64,6 @@ def test_cross_validation_labels_each_object_without_its_own_poses():
     assert scores["pan"] < 0.1
     assert scores["mug"] > 0.85
     assert (table.fitted_on == "2 other objects").all()
-
-
-def test_words_for_the_fit():
-    assert describe_fit(["mug", "pan"], ["mug", "cup"]) == [
-        "2 objects, this one too",
-        "2 other objects",
-    ]
 
 
 def test_judge_leaves_out_what_has_no_type_configuration_or_object():

@@ -12,12 +12,9 @@ from grasptypes.labels.samples import (
     COUNTS,
     LABELS,
     PROBABILITIES,
-    SAMPLE_SCHEMA,
     labels_of,
-    read_samples,
     samples_from_counts,
 )
-from grasptypes.tables import write_table
 
 PUBLISHED = Path(__file__).parents[3] / "assets" / "published_labels.csv"
 
@@ -47,12 +44,6 @@ def test_published_counts_have_the_papers_figures():
     assert labels.shape == (19, 2, 6)
     assert labels.sum(axis=-1).mean() == pytest.approx(3.5, abs=0.005)  # paper, section III-C
     assert (labels[:, 0] != labels[:, 1]).sum(axis=-1).mean() == pytest.approx(1.1, abs=0.01)
-
-
-def test_samples_survive_the_disk(tmp_path):
-    table = samples_from_counts(counts(mug__use=[1, 2, 0, 0, 0, 0], cup__use=[0, 0, 0, 1, 1, 1]))
-    write_table(table, tmp_path / "samples.csv", SAMPLE_SCHEMA)
-    pd.testing.assert_frame_equal(read_samples(tmp_path / "samples.csv"), table)
 
 
 def test_a_missing_task_is_not_passed_over():

@@ -5,6 +5,7 @@ import pytest
 
 from grasptypes.objects import solids
 from grasptypes.objects.catalogue import OBJECTS, build
+from grasptypes.objects.parts import ImportedModel
 from grasptypes.objects.preparation import physical_properties
 from grasptypes.settings.objects import CATALOGUE
 
@@ -85,7 +86,7 @@ def test_objects_are_bodies_one_can_hold(name):
     tolerance_mm = 1.0 if name == "utah_teapot" else 0.5
     assert bounds_mm(solid) == pytest.approx(np.array(BOUNDS_MM[name]), abs=tolerance_mm)
     assert len(solid.decompose()) == 1
-    found = physical_properties(name, model, 1.15)
+    found = physical_properties(name, ImportedModel(model, 1.15))
     assert 0.015 < found.mass_kg < 1.0
     low, high = np.array(found.bounds_m)
     assert ((low < found.centre_of_mass_m) & (found.centre_of_mass_m < high)).all()

@@ -84,9 +84,9 @@ def test_same_bytes_again(folder, tmp_path):
 
 
 def test_heavier_part_draws_the_centre_of_mass():
-    even = physical_properties("dumbbell", dumbbell(), 1.0)
+    even = physical_properties("dumbbell", ImportedModel(dumbbell(), 1.0))
     assert even.centre_of_mass_m == pytest.approx([0, 0, 0], abs=1e-9)
-    heavy = physical_properties("dumbbell", dumbbell(density_kg_m3=3000.0), 1.0)
+    heavy = physical_properties("dumbbell", ImportedModel(dumbbell(density_kg_m3=3000.0), 1.0))
     assert heavy.centre_of_mass_m[0] > 0.01
     # The bar's end that lies in the heavy box is the bar's: earlier parts own what they share.
     assert heavy.mass_kg - even.mass_kg == pytest.approx(
@@ -95,7 +95,7 @@ def test_heavier_part_draws_the_centre_of_mass():
 
 
 def test_given_mass_scales_the_inertia():
-    own = physical_properties("dumbbell", dumbbell(), 1.0)
-    given = physical_properties("dumbbell", dumbbell(), 1.0, mass_kg=2 * own.mass_kg)
+    own = physical_properties("dumbbell", ImportedModel(dumbbell(), 1.0))
+    given = physical_properties("dumbbell", ImportedModel(dumbbell(), 1.0, mass_kg=2 * own.mass_kg))
     assert given.mass_kg == pytest.approx(2 * own.mass_kg)
     assert np.array(given.inertia_kg_m2) == pytest.approx(2 * np.array(own.inertia_kg_m2))

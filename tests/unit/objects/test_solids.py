@@ -6,11 +6,6 @@ import pytest
 from grasptypes.objects import sections, solids
 
 
-def test_revolved_rectangle_is_a_cylinder():
-    solid = solids.revolve([(0, 0), (0.03, 0), (0.03, 0.1), (0, 0.1)], segments=256)
-    assert solid.volume() == pytest.approx(np.pi * 0.03**2 * 0.1, rel=1e-3)
-
-
 @pytest.mark.parametrize(("axis", "index"), [("x", 0), ("y", 1), ("z", 2)])
 def test_extrusion_runs_along_its_axis(axis, index):
     extent = np.reshape(solids.extrude(sections.circle(0.01), 0.1, axis).bounding_box(), (2, 3))

@@ -73,12 +73,6 @@ def test_a_fine_tuned_backbone_is_kept_with_its_head(files, weights):
     assert not np.allclose(loaded.logits(IMAGES, "use"), predictor.logits(IMAGES, "use"))
 
 
-def test_precisions_can_be_told_apart(weights):
-    backbone = load_backbone(weights, 32)
-    fine, coarse = (extract(backbone, IMAGES, {"": 0}, p, 3)[""] for p in ("fp32", "bf16"))
-    assert not np.array_equal(fine, coarse)
-
-
 def test_other_weights_and_damaged_files_are_rejected(files, weights):
     learning.small_predictor(files[0].parent, weights)
     with pytest.raises(InputError, match="trained on mobilenet_v2"):

@@ -6,7 +6,7 @@ import pandas as pd
 from grasptypes.labels.samples import TYPES
 from grasptypes.predictors.examples import Examples
 from grasptypes.predictors.members import Member
-from grasptypes.predictors.scoring import PREDICTION_SCHEMA, curve_table, score
+from grasptypes.predictors.scoring import PREDICTION_SCHEMA, score
 
 
 def test_every_member_is_scored_on_its_own_test_examples():
@@ -28,13 +28,3 @@ def test_every_member_is_scored_on_its_own_test_examples():
     assert predictions["object"].tolist() == ["mug", "pan", "bowl"]
     assert predictions["seed"].tolist() == [0, 0, 7]
     assert predictions[f"logit_{TYPES[0]}"].tolist() == [40, -40, 40]
-
-
-def test_curves_have_a_row_a_member_and_epoch():
-    members = [
-        Member("0", 0, np.arange(2), np.arange(0)),
-        Member("1", 0, np.arange(2), np.arange(0)),
-    ]
-    table = curve_table(members, np.arange(12.0).reshape(3, 2, 2))
-    last = table.query("group == '1' and epoch == 3")
-    assert last[["train_loss", "test_loss"]].to_numpy().tolist() == [[10, 11]]

