@@ -7,7 +7,7 @@ from pathlib import Path
 
 from grasptypes.contact_maps.affinities import AffinityRow, read_affinities
 from grasptypes.errors import InputError
-from grasptypes.labels.published_source import check_published
+from grasptypes.labels.label_sources import check_published
 from grasptypes.objects.own_objects import check_every_hold, check_own_objects
 from grasptypes.objects.reference_meshes import reference_meshes
 from grasptypes.settings.objects import CATALOGUE

@@ -9,7 +9,7 @@ import pandas as pd
 from case import ROOT, Case, library, script, start
 
 from grasptypes.contact_maps.affinities import COLUMNS
-from grasptypes.labels.published_source import PUBLISHED, fetch_published
+from grasptypes.labels.label_sources import PUBLISHED, fetch_published
 
 POSE = "0,1,0,0,0.1,0,1,0,0.2,0,0,1,0.3,0.5,1.0,1.1,1.2"
 ROW = {

@@ -14,7 +14,7 @@ import pytest
 from repository import Repository
 from verify import checksums
 
-from grasptypes.labels.published_source import FETCHED, PUBLISHED
+from grasptypes.labels.label_sources import FETCHED, PUBLISHED
 
 MODELS = ["no_task", "task_vector", "task_in_image", "ignores_task"]
 

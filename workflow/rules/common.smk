@@ -1,8 +1,12 @@
 # Shared by all rules: the checked parameters, the names to loop over, and content hashes.
 import re
 
-from grasptypes.labels.label_sources import label_sources
-from grasptypes.labels.published_source import FETCHED, published_address, published_path
+from grasptypes.labels.label_sources import (
+    FETCHED,
+    label_sources,
+    published_address,
+    published_path,
+)
 from grasptypes.objects.own_objects import measured_map
 from grasptypes.objects.reference_meshes import reference_meshes
 from grasptypes.objects.variants import all_objects, all_variants, base_of

@@ -18,8 +18,8 @@ from grasptypes.labels.agreement import (
 )
 from grasptypes.labels.grasp_type import TYPES, classify, limits
 from grasptypes.labels.label_pictures import draw_confusion, save_figure
+from grasptypes.labels.label_sources import published_path
 from grasptypes.labels.published_data import labelled_grasps, lacking_data
-from grasptypes.labels.published_source import published_path
 from grasptypes.settings.grasp_types import GraspTypeSettings
 from grasptypes.tables import write_table
 

@@ -3,7 +3,7 @@
 import os
 
 from grasptypes.jobs import job
-from grasptypes.labels.published_source import fetch_published
+from grasptypes.labels.label_sources import fetch_published
 
 if __name__ == "__main__":
     with job(snakemake.log) as log:

@@ -6,8 +6,8 @@ from pathlib import Path
 
 from grasptypes.errors import InputError
 from grasptypes.jobs import job
+from grasptypes.labels.label_sources import PUBLISHED, published_path
 from grasptypes.labels.published import read_published
-from grasptypes.labels.published_source import PUBLISHED, published_path
 from grasptypes.labels.replay import REPLAY_SCHEMA, replay
 from grasptypes.objects.reference_meshes import REFERENCES, reference_meshes
 from grasptypes.settings.grasp_types import ReplaySettings

@@ -11,8 +11,8 @@ import trimesh
 from grasptypes.errors import InputError
 from grasptypes.labels.agreement import LabelledGrasps, measure_published
 from grasptypes.labels.contacts import MeshDistance
+from grasptypes.labels.label_sources import PUBLISHED, published_path
 from grasptypes.labels.published import read_published
-from grasptypes.labels.published_source import PUBLISHED, published_path
 from grasptypes.labels.replay import read_reference_mesh
 from grasptypes.objects.object_files import SURFACE, read_surface
 from grasptypes.objects.reference_meshes import REFERENCES

@@ -7,8 +7,8 @@ import trimesh
 from tests.unit.settings import PARAMS
 
 from grasptypes.hand import configuration
+from grasptypes.labels.label_sources import PUBLISHED
 from grasptypes.labels.published_data import REFERENCES, labelled_grasps, lacking_data, own_mesh
-from grasptypes.labels.published_source import PUBLISHED
 from grasptypes.objects.object_files import Surface, write_surface
 from grasptypes.settings.grasp_types import ModelFrame
 
