@@ -4,23 +4,11 @@ from concurrent.futures.process import BrokenProcessPool
 from pathlib import Path
 
 import pytest
-from learning import ROOT
 
 from grasptypes.__main__ import main
 from grasptypes.commands import predict
 from grasptypes.commands.settings import check_place, check_target
 from grasptypes.errors import InputError
-from grasptypes.settings.params import checkout_params
-
-
-def test_the_parameters_of_a_checkout_are_checked(tmp_path):
-    assert checkout_params(ROOT).folds.count == 5
-    with pytest.raises(InputError, match=r"params\.yaml.*--folder"):
-        checkout_params(tmp_path)
-    text = (ROOT / "params.yaml").read_text()
-    (tmp_path / "params.yaml").write_text(text.replace("seed: 0", "seed: none"))
-    with pytest.raises(InputError, match=r"params\.yaml: seed: 'none'"):
-        checkout_params(tmp_path)
 
 
 def test_targets_that_could_not_be_written_are_rejected(tmp_path):

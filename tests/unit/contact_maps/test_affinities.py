@@ -31,42 +31,6 @@ def test_reads_rows_by_object_and_task(tmp_path):
     assert table["mug", "show"][0].parts == ()
 
 
-@pytest.mark.parametrize(
-    ("row", "key"),
-    [
-        (GOOD.replace("mug", "jug"), "line 2, object"),
-        (GOOD.replace("wrap", "hug"), "line 2, grip"),
-        (GOOD.replace("+x", "x"), "line 2, approach"),
-        (GOOD.replace(",z,", ",w,"), "line 2, axis"),
-        (GOOD.replace("0.3", "1.3"), "line 2, low"),
-        (GOOD.replace("0.7", "0.2"), "line 2, high"),
-        (GOOD.replace(",2,", ",-1,"), "line 2, affinity"),
-        (GOOD.replace(",2,", ",inf,"), "line 2, affinity"),
-        (GOOD.replace(",2,", ",nan,"), "line 2, affinity"),
-        (GOOD.replace(",2,", ",many,"), "line 2, affinity"),
-        (GOOD.replace("to drink", " "), "line 2, reason"),
-        (GOOD + ",more", "line 2"),
-        (GOOD.replace(",2,", ",0,"), "affinity"),
-    ],
-)
-def test_names_the_wrong_cell(tmp_path, row, key):
-    path = _table(tmp_path, row)
-    with pytest.raises(InputError) as caught:
-        read_affinities(path, ["mug"], TASKS)
-    assert caught.value.key == key
-    assert str(caught.value).startswith(str(path))
-    assert "\n" not in str(caught.value)
-
-
-def test_names_wrong_columns_and_missing_file(tmp_path):
-    path = tmp_path / "affinities.csv"
-    with pytest.raises(InputError, match="no such"):
-        read_affinities(path, ["mug"], TASKS)
-    path.write_text("object,task\nmug,use\n", encoding="utf-8")
-    with pytest.raises(InputError, match="columns must be"):
-        read_affinities(path, ["mug"], TASKS)
-
-
 def test_unknown_part_and_missing_object_are_named(tmp_path):
     path = _table(tmp_path, GOOD)
     table = read_affinities(path, ["mug"], TASKS)

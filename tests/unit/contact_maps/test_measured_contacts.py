@@ -118,22 +118,6 @@ def test_arrays_are_those_of_every_map_and_come_back_the_same(bottle, points, tm
     assert back.sessions.shape == (2, len(points.points_m))
 
 
-@pytest.mark.parametrize(
-    ("metres", "red", "reason"),
-    [
-        (0.001, girdle, "unit and frame"),
-        (1.0, lambda mesh: 120, "is the same wherever"),
-        (1.0, lambda mesh: np.where(np.arange(len(mesh.vertices)) == 9, 200, 1), "almost no warm"),
-    ],
-)
-def test_what_cannot_be_used_is_refused_in_one_line(bottle, points, tmp_path, metres, red, reason):
-    path = scan_file(tmp_path / "map.ply", bottle, red(bottle))
-    with pytest.raises(InputError, match=reason) as raised:
-        read_probability(path, metres, task(points))
-    assert str(raised.value).startswith(f"{path}: ")
-    assert "\n" not in str(raised.value)
-
-
 def test_what_no_hand_can_hold_is_refused_in_one_line(bottle, points, tmp_path):
     path = scan_file(tmp_path / "map.ply", bottle, girdle(bottle))
     proportions = dict.fromkeys(HandProportions.model_fields, 1e-4)

@@ -46,11 +46,6 @@ def test_a_url_needs_its_checksum(fragment):
             check(named)
 
 
-def test_a_path_to_nothing_is_refused(tmp_path):
-    with pytest.raises(InputError, match=rf"{PUBLISHED}: names '{tmp_path}', which is not a file"):
-        check_published({PUBLISHED: str(tmp_path)})
-
-
 @pytest.mark.parametrize(
     ("named", "said"),
     [

@@ -34,14 +34,6 @@ def test_complete_blocks_pass(own):
     assert measured_map(objects, "mug", "use") is None
 
 
-def test_missing_files_are_refused(own):
-    gone = own | {"contact_maps": {"use": "gone.ply"}}
-    with pytest.raises(InputError, match=r"own\.box\.contact_maps\.use: no such file: gone\.ply"):
-        check_own_objects(objects_with(gone))
-    with pytest.raises(InputError, match=r"own\.box\.file: no such file: gone\.stl"):
-        check_own_objects(objects_with(own | {"file": "gone.stl"}))
-
-
 def test_an_object_that_nothing_says_how_to_hold_is_named(own):
     objects = objects_with(own)
     with pytest.raises(InputError) as raised:

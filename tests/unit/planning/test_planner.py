@@ -236,16 +236,6 @@ def test_a_session_gives_its_grasp_of_a_wanted_type():
         assert np.flatnonzero(chosen).tolist() == expected
 
 
-def test_a_predictor_that_is_missing_is_named(mesh, tmp_path, monkeypatch):
-    root = tmp_path / "bare"
-    root.mkdir()
-    small_checkout(root, SMALL_PLANS)
-    (root / "models/simulated/task_vector/predictor.json").unlink()
-    with pytest.raises(SystemExit, match=r"predictor\.json: is not trained yet"):
-        plan(root, mesh, tmp_path / "out", "--task", "use")
-    assert not (tmp_path / "out").exists()
-
-
 def test_the_help_lists_all_types():
     assert ", ".join(GRASP_TYPES[:-1]) == TYPES
 

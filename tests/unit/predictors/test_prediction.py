@@ -13,7 +13,6 @@ from scipy.special import softmax
 from grasptypes.__main__ import main
 from grasptypes.errors import InputError
 from grasptypes.labels.samples import TYPES
-from grasptypes.predictors import prediction
 from grasptypes.predictors.prediction import Answer, predictor_paths
 from grasptypes.predictors.prediction_pictures import draw_answers, montage
 from grasptypes.predictors.predictor_files import ModelCard, load_predictor
@@ -113,16 +112,6 @@ def test_what_a_model_cannot_answer_is_one_line(predict, arguments, expected):
     out, err, status = predict("--image", "photo.png", *arguments)
     assert (out, status) == ("", 1)
     assert expected in err
-
-
-def test_one_bad_picture_of_a_folder_stops_everything(predict, tmp_path, monkeypatch):
-    (tmp_path / "zero.png").touch()
-    monkeypatch.setattr(prediction.Predictor, "load", None)  # told before it is opened
-    drawn = tmp_path / "new" / "drawn.png"
-    out, err, status = predict("--image", tmp_path, "--model", "a", "--picture", drawn)
-    assert (out, status) == ("", 1)
-    assert "zero.png: not an image" in err
-    assert not drawn.parent.exists()
 
 
 def test_other_weights_are_rejected_but_not_another_name(predict, checkout, monkeypatch, tmp_path):
