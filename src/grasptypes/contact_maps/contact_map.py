@@ -15,8 +15,8 @@ import trimesh
 from numpy.typing import ArrayLike, NDArray
 
 from grasptypes.contact_maps.affinities import STYLE_OF_GRIP, WHOLE, AffinityRow
-from grasptypes.contact_maps.handprint import HeldSurface, HumanHand, Placement, handprint
-from grasptypes.contact_maps.placement import place_hand
+from grasptypes.contact_maps.handprint import handprint
+from grasptypes.contact_maps.placement import HeldSurface, HumanHand, Placement, place_hand
 from grasptypes.errors import InputError
 from grasptypes.objects.object_files import Surface
 from grasptypes.objects.object_geometry import ObjectGeometry
@@ -136,10 +136,26 @@ class MapTask:
         length_m = draw.normal(group.hand_length_m, group.hand_length_sd_m)
         return HumanHand.of_length(self.scale * length_m, self.settings.hand)
 
-    def opposes(self, contact: NDArray[np.float64], closing: NDArray[np.float64]) -> bool:
-        """Whether the touched surface of a contact (N,) faces both ways along `closing` (3,)."""
-        facing = self.points.normals[contact >= self.settings.threshold] @ closing
-        return bool((facing > OPPOSED_COSINE).any() and (facing < -OPPOSED_COSINE).any())
+    def try_hold(
+        self,
+        held: HeldSurface,
+        row: AffinityRow,
+        hand: HumanHand,
+        draw: np.random.Generator,
+        reached: HeldSurface | None = None,
+    ) -> Session | None:
+        """Place a hand once; None if thumb and fingers do not touch opposing sides of the object.
+
+        Args:
+            held: where the hand is put.
+            reached: where it may touch; default: the same.
+        """
+        placement, height = place_hand(held, row, hand, self.settings.placement, draw)
+        contact = handprint(reached or held, row.grip, placement, hand)
+        facing = self.points.normals[contact >= self.settings.threshold] @ placement.closing
+        if not ((facing > OPPOSED_COSINE).any() and (facing < -OPPOSED_COSINE).any()):
+            return None
+        return Session(row, placement, height, hand, contact)
 
 
 def sample_surface(mesh: Surface, count: int, seed_number: int) -> Points:
@@ -167,10 +183,8 @@ def draw_session(task: MapTask, rows: Sequence[AffinityRow], number: int) -> Ses
     surface = HeldSurface(points.points_m, points.normals, mask)
     hand = task.draw_hand(draw)
     for _ in range(settings.tries):
-        placement, height = place_hand(surface, row, hand, settings.placement, draw)
-        contact = handprint(surface, row.grip, placement, hand)
-        if task.opposes(contact, placement.closing):
-            return Session(row, placement, height, hand, contact)
+        if session := task.try_hold(surface, row, hand, draw):
+            return session
     raise InputError(
         settings.affinities,
         f"{key[0]}, {key[1]}, {'+'.join(row.parts) or WHOLE}, {row.grip} {row.approach}",

@@ -8,82 +8,13 @@ of the hand's length, so that one description fits every person.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 from numpy.typing import NDArray
 
 from grasptypes.contact_maps.outline import along_outline, convex_outline
-from grasptypes.settings.contact_maps import HandProportions
+from grasptypes.contact_maps.placement import HeldSurface, HumanHand, Placement
 
 Array = NDArray[np.float64]
-
-
-@dataclass(frozen=True)
-class HumanHand:
-    """A hand's size (metres); the fields of `proportions` are keys of params.yaml.
-
-    Attributes:
-        length_m: wrist to the tip of the middle finger.
-        breadth_m: across the bases of the four fingers.
-        finger_reach_m: along the surface from the palm's centre to a fingertip.
-        thumb_reach_m: the same to the thumb's tip.
-        palm_half_m: half of the touching palm, across the handle.
-        palm_radius_m: radius of the palm's patch when the fingers are spread.
-        finger_half_width_m: half the breadth of a finger.
-        pad_radius_m: radius of a fingertip's patch.
-        span_m: maximum distance of a fingertip from the centre of a precision grip.
-        softness_m: depth by which skin gives way.
-    """
-
-    length_m: float
-    breadth_m: float
-    finger_reach_m: float
-    thumb_reach_m: float
-    palm_half_m: float
-    palm_radius_m: float
-    finger_half_width_m: float
-    pad_radius_m: float
-    span_m: float
-    softness_m: float
-
-    @classmethod
-    def of_length(cls, length_m: float, proportions: HandProportions) -> HumanHand:
-        """A hand from its length and lengths relative to it, without the suffix `_m`."""
-        lengths = {f"{key}_m": share * length_m for key, share in proportions}
-        return cls(length_m, **lengths)
-
-    def finger_offsets_m(self, count: int = 4) -> Array:
-        """(count,) positions of `count` neighbouring fingers side by side, centred on zero."""
-        return (np.arange(count) - (count - 1) / 2) * self.breadth_m / 4
-
-
-@dataclass(frozen=True)
-class Placement:
-    """Pose of the hand (object frame, metres; directions are orthogonal unit vectors).
-
-    Attributes:
-        centre_m: (3,) between palm, fingers and thumb.
-        palm_side: (3,) from the centre to the palm.
-        axis: (3,) along which the fingers are side by side.
-        closing: (3,) from the thumb to the fingers.
-        fingers: number of fingers that touch in a precision grip, 2 to 4.
-    """
-
-    centre_m: Array
-    palm_side: Array
-    axis: Array
-    closing: Array
-    fingers: int = 4
-
-
-@dataclass(frozen=True)
-class HeldSurface:
-    """Points (N, 3) in metres, outward unit normals (N, 3) and which points the hand may touch."""
-
-    points_m: Array
-    normals: Array
-    mask: NDArray[np.bool_]
 
 
 # Directions of thumb and fingers around the approach of a spread hand, degrees from the closing.

@@ -16,8 +16,7 @@ from scipy.spatial import cKDTree
 
 from grasptypes.contact_maps.affinities import APPROACHES, AXES, STYLE_OF_GRIP, AffinityRow
 from grasptypes.contact_maps.contact_map import ContactMap, MapTask, Session, of_sessions
-from grasptypes.contact_maps.handprint import HeldSurface, handprint
-from grasptypes.contact_maps.placement import place_hand
+from grasptypes.contact_maps.placement import HeldSurface
 from grasptypes.errors import InputError
 from grasptypes.objects.contact_scan import ContactScan, read_contact_scan
 from grasptypes.seeds import rng
@@ -123,11 +122,10 @@ def draw_measured_session(
     sessions, weights = [], []
     for _ in range(settings.measured.placements):
         row = _any_row(draw, grips)
-        placement, height = place_hand(held, row, hand, settings.placement, draw)
-        contact = handprint(reached, row.grip, placement, hand)
-        if task.opposes(contact, placement.closing):
-            sessions.append(Session(row, placement, height, hand, contact))
-            weights.append(_agreement(contact, probability) ** settings.measured.sharpness)
+        if session := task.try_hold(held, row, hand, draw, reached):
+            sessions.append(session)
+            agreement = _agreement(session.contact, probability)
+            weights.append(agreement**settings.measured.sharpness)
     if not sessions:
         return None
     shares = np.cumsum(weights)

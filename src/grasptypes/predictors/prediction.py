@@ -89,6 +89,13 @@ def predictor_paths(root: str | Path, labels: str, model: str) -> tuple[Path, Pa
     return tensors, card
 
 
+def load_model(root: str | Path, labels: str, model: str) -> PredictorNetwork:
+    """A trained model with the backbone's weights on this machine, see `predictor_paths`."""
+    tensors, card = predictor_paths(root, labels, model)
+    ModelCard.read(card)  # report a damaged card before missing weights
+    return load_predictor(tensors, card, find_weights(timeout_s=0))
+
+
 class Predictor:
     """A trained model of a checkout, which predicts the grasp types for an object and a task.
 
@@ -123,9 +130,7 @@ class Predictor:
         import_module("torchvision")  # before OpenGL: see `renders.renderer`
         params = params or checkout_params(folder)
         chosen = labels or params.predict.labels, model or params.predict.model
-        tensors, card = predictor_paths(folder, *chosen)
-        ModelCard.read(card)  # report a damaged card before missing weights
-        return cls(load_predictor(tensors, card, find_weights(timeout_s=0)), params)
+        return cls(load_model(folder, *chosen), params)
 
     @property
     def card(self) -> ModelCard:

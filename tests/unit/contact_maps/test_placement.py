@@ -8,8 +8,8 @@ import trimesh
 from tests.unit.settings import PARAMS
 
 from grasptypes.contact_maps.affinities import AffinityRow
-from grasptypes.contact_maps.handprint import HeldSurface, HumanHand, handprint
-from grasptypes.contact_maps.placement import place_hand
+from grasptypes.contact_maps.handprint import handprint
+from grasptypes.contact_maps.placement import HeldSurface, HumanHand, place_hand
 from grasptypes.settings.contact_maps import PlacementSettings
 
 SETTINGS = PARAMS.contact_maps
