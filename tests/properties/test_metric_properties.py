@@ -8,7 +8,6 @@ from hypothesis.extra.numpy import arrays
 
 from grasptypes.predictors.metrics import (
     angular_similarity,
-    chosen,
     multilabel_accuracy,
     multilabel_precision,
 )
@@ -48,25 +47,3 @@ def test_sets_are_compared_within_bounds(a, b):
     # All that is predicted is right, and something is, unless there is nothing to predict.
     right = ~(a & ~b).any(axis=1) & (a.any(axis=1) | equal)
     np.testing.assert_array_equal(precision == 1, right)
-
-
-@given(SETS, SETS, ORDERS)
-def test_the_order_of_types_does_not_count_in_sets(a, b, order):
-    for measure in (multilabel_accuracy, multilabel_precision):
-        np.testing.assert_array_equal(measure(a[:, order], b[:, order]), measure(a, b))
-
-
-@given(SETS)
-def test_degenerate_sets(a):
-    none, every = np.zeros_like(a), np.ones_like(a)
-    some = a.any(axis=1)
-    np.testing.assert_array_equal(multilabel_precision(none, a), ~some)
-    np.testing.assert_array_equal(multilabel_accuracy(none, a), ~some)
-    np.testing.assert_allclose(multilabel_accuracy(every, a), a.mean(axis=1))
-    np.testing.assert_allclose(multilabel_precision(every, a), a.mean(axis=1))
-
-
-@given(LOGITS)
-def test_what_is_more_likely_than_not_is_chosen(logits):
-    logits = logits.round(9)  # closer to zero, the sigmoid rounds to one half
-    np.testing.assert_array_equal(chosen(logits), 1 / (1 + np.exp(-logits)) > 0.5)

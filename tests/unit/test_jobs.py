@@ -1,4 +1,3 @@
-import errno
 import logging
 from pathlib import Path
 
@@ -29,26 +28,6 @@ def test_bad_input_is_one_line_and_status_1(
         "INFO started",
         "ERROR mesh.stl: vertices: NaN at row 3",
     ]
-
-
-@pytest.mark.parametrize(
-    ("error", "line"),
-    [
-        (
-            OSError(errno.ENOSPC, "No space left on device", "a.npz"),
-            "a.npz: No space left on device",
-        ),
-        (OSError(errno.EROFS, "Read-only file system"), "a file: Read-only file system"),
-        (MemoryError(), "not enough memory for this job: give it more, or run fewer at once"),
-    ],
-)
-def test_what_the_machine_lacks_is_one_line(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str], error: Exception, line: str
-) -> None:
-    with pytest.raises(SystemExit), job([str(tmp_path / "job.log")]):
-        raise error
-    assert capsys.readouterr().err.startswith(f"error: {line}")
-    assert line in (tmp_path / "job.log").read_text()
 
 
 def test_what_nobody_foresaw_is_one_line_with_its_trace_in_the_log(

@@ -5,7 +5,6 @@ import pandas as pd
 import pytest
 from learning import OBJECTS, SETTINGS, TASKS, VIEWS, features, samples
 
-from grasptypes.predictors.ceilings import constant_of_others
 from grasptypes.predictors.generalisation import (
     GENERALISATION_SCHEMA,
     VariantInputs,
@@ -65,14 +64,6 @@ def trials():
 def test_as_many_pictures_are_trained_on_whatever_the_shapes(trials):
     assert set(trials.n_train) == {10 * (len(OBJECTS) - 1) * len(TASKS)}
     assert set(trials.n_test) == {VIEWS * len(TASKS)}
-
-
-def test_the_constant_answer_is_fitted_to_the_other_objects():
-    found = constant_similarity(samples())
-    for model, joint in (("task_vector", False), ("ignores_task", True)):
-        scores = constant_of_others(samples(), joint)
-        assert found[model] == pytest.approx(scores["angular_similarity"].mean())
-    assert found["task_vector"] != pytest.approx(found["ignores_task"])
 
 
 def test_the_gain_is_that_over_one_shape_in_as_many_pictures(trials):

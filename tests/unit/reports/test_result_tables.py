@@ -106,18 +106,6 @@ def test_models_stand_beside_the_constant_answer_of_the_other_objects():
     assert line in markdown(table)
 
 
-def test_objects_are_compared_each_with_the_constant_answer_to_itself():
-    counts = pd.DataFrame(np.eye(6, dtype=int)[[0, 0, 1]], columns=list(COUNTS))
-    names = ["bowl", "mug", "pan"]
-    rows = metrics("task_vector", [0.5, 0.0]).assign(group=["mug", "pan"])
-    bowl = metrics("task_vector", [0.5]).assign(group="bowl")
-    samples = samples_from_counts(counts.assign(object=names, task="use"))
-    table = tabulate(pd.concat([rows, bowl]), samples, "published", unseen=True)
-    # Of bowl and mug alike the others are half right, of the pan they know nothing.
-    row = table.set_index("model").loc["task_vector"]
-    assert (row["sim_over_constant"], row["sim_over_constant_se"]) == pytest.approx((0, 0))
-
-
 def test_who_is_asked_for_joint_labels_has_a_constant_answer_of_its_own():
     rows = [metrics(model, [0.6, 0.6]) for model in ("task_vector", "ignores_task")]
     table = tabulate(pd.concat(rows), known_samples(), "published", unseen=True)
