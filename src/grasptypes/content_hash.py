@@ -61,7 +61,7 @@ class FileHash:
     """SHA-256 of files; see :class:`FileMemory`."""
 
     def __init__(self, memory: str | Path | None = None) -> None:
-        self.read = FileMemory(_sha256, memory)
+        self.read = FileMemory(lambda path: file_sha256(path)[:16], memory)
 
     def __call__(self, path: str | Path) -> str:
         """The first 16 hex digits of the file's SHA-256, or ``"missing"``."""
@@ -98,10 +98,6 @@ class CodeHash:
             found = {_module_file(module) for module in self.read(path)[1]}
             todo |= {file for file in found if file is not None} - seen
         return seen
-
-
-def _sha256(path: Path) -> str:
-    return file_sha256(path)[:16]
 
 
 def _read(path: Path) -> tuple[str, list[str]]:

@@ -81,12 +81,14 @@ def _mouse_wheel(size: Size, gap_m: float = 0.0) -> Manifold:
 
 def stapler(size: Size) -> Solids:
     """The stapler: base, anvil, hinge, pin, magazine and cover."""
+    # It carries the cover, its heads showing on both sides.
+    pin = solids.cylinder(size.pin_radius_m, size.cover_width_m + 2 * size.pin_head_m, axis="y")
     return {
         "base": _stapler_base(size),
         "anvil": _stapler_anvil(size),
         "hinge": _stapler_hinge(size),
-        "pin": _stapler_pin(size),
-        "magazine": _stapler_magazine(size),
+        "pin": pin.translate((size.pin_x_m, 0.0, size.pin_z_m)),
+        "magazine": _block(size.magazine_x_m, size.magazine_width_m, size.magazine_z_m),
         "cover": _stapler_cover(size),
     }
 
@@ -125,16 +127,6 @@ def _stapler_hinge(size: Size) -> Manifold:
     middle_x_m = sum(size.hinge_x_m) / 2
     opening = _block((middle_x_m - 0.016, middle_x_m + 0.016), 0.0112, (-1.0, 1.0))
     return (outer - inner) + (plate - opening)
-
-
-def _stapler_pin(size: Size) -> Manifold:
-    """Return the pin that carries the cover, its heads showing on both sides."""
-    pin = solids.cylinder(size.pin_radius_m, size.cover_width_m + 2 * size.pin_head_m, axis="y")
-    return pin.translate((size.pin_x_m, 0.0, size.pin_z_m))
-
-
-def _stapler_magazine(size: Size) -> Manifold:
-    return _block(size.magazine_x_m, size.magazine_width_m, size.magazine_z_m)
 
 
 def _stapler_cover(size: Size) -> Manifold:

@@ -11,13 +11,15 @@ def cell_phone(size: Size) -> Solids:
     """The phone: back, front, bezel, screen, keys, menu_key and antenna."""
     front, back = _phone_covers(size)
     bezel, screen = _phone_display(size)
+    menu = lofts.even_superellipse(size.menu_half_x_m, size.menu_half_y_m, 2.8)
+    menu_key = _on_front(size, menu + [size.menu_x_m, size.middle_y_m], size.menu_height_m)
     return {
         "back": back,
         "front": front,
         "bezel": bezel,
         "screen": screen,
         "keys": _phone_keys(size),
-        "menu_key": _phone_menu_key(size),
+        "menu_key": menu_key,
         "antenna": _phone_antenna(size),
     }
 
@@ -81,11 +83,6 @@ def _phone_keys(size: Size) -> Manifold:
         for y in (size.key_columns_y_m[0], size.key_columns_y_m[-1])
     ]
     return solids.union(*keys, *calls)
-
-
-def _phone_menu_key(size: Size) -> Manifold:
-    outline = lofts.even_superellipse(size.menu_half_x_m, size.menu_half_y_m, 2.8)
-    return _on_front(size, outline + [size.menu_x_m, size.middle_y_m], size.menu_height_m)
 
 
 def _phone_antenna(size: Size) -> Manifold:

@@ -7,7 +7,7 @@ and with all grips in turn.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from multiprocessing import get_context
 from typing import Any, NamedTuple
@@ -75,15 +75,11 @@ def unseen_types(
     members = members_by_object(examples.index["object"], seeds)
     key = ("unseen", problem.model, seed)
     predictions = try_splits(examples, members, problem.settings, key, problem.backbone).predictions
+    logits = [f"logit_{kind}" for kind in TYPES]
     return {
-        (str(name), str(task)): _types(rows)
+        (str(name), str(task)): Answer.of_logits("", TYPES, rows[logits].to_numpy()).grasp_types
         for (name, task), rows in predictions.groupby(["object", "task"])
     }
-
-
-def _types(rows: pd.DataFrame) -> list[str]:
-    logits = rows[[f"logit_{kind}" for kind in TYPES]].to_numpy()
-    return Answer.of_logits("", TYPES, logits).grasp_types
 
 
 def compare(
@@ -91,9 +87,10 @@ def compare(
 ) -> pd.DataFrame:
     """One row per case: a table of `PLANNING_SCHEMA`, independent of the number of jobs."""
     rows = []
-    for row in _outcomes(cases, jobs):
-        rows.append(row)
-        tell(f"{row['object']} {row['task']}, {row['choice']}: {row['tests']} tests")
+    with ProcessPoolExecutor(jobs, mp_context=get_context("spawn")) as pool:
+        for row in pool.map(outcome, cases):
+            rows.append(row)
+            tell(f"{row['object']} {row['task']}, {row['choice']}: {row['tests']} tests")
     return pd.DataFrame(rows)
 
 
@@ -134,7 +131,9 @@ def summary(table: pd.DataFrame) -> pd.DataFrame:
         chosen = table[table.choice == choice].set_index(["object", "task"])
         row = {"sessions": chosen.sessions.sum(), "tests": chosen.tests.sum()}
         for kind in ("", "_predicted", "_labelled"):
-            common = table.groupby(["object", "task"])[f"energy{kind}"].agg(_all_there)
+            common = table.groupby(["object", "task"])[f"energy{kind}"].agg(
+                lambda energies: bool(energies.notna().all())
+            )
             count = chosen[f"valid{kind}"].sum()
             row[f"valid{kind}"] = count
             row[f"tests_per_valid{kind}"] = row["tests"] / count if count else np.nan
@@ -213,11 +212,6 @@ def text(table: pd.DataFrame) -> str:
     return "\n".join(lines) + "\n"
 
 
-def _outcomes(cases: Sequence[Case], jobs: int) -> Iterator[dict[str, Any]]:
-    with ProcessPoolExecutor(jobs, mp_context=get_context("spawn")) as pool:
-        yield from pool.map(outcome, cases)
-
-
 def _counts(attempts: pd.DataFrame, suffix: str, types: Sequence[str]) -> dict[str, Any]:
     """Sessions with a valid grasp of the types among all tries, and the best energy.
 
@@ -225,7 +219,3 @@ def _counts(attempts: pd.DataFrame, suffix: str, types: Sequence[str]) -> dict[s
     """
     found = attempts[attempts.valid & attempts.grasp_type.isin(types)]
     return {f"valid{suffix}": found.session.nunique(), f"energy{suffix}": found.energy.min()}
-
-
-def _all_there(energies: pd.Series) -> bool:
-    return bool(energies.notna().all())

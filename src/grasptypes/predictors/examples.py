@@ -65,10 +65,11 @@ def assemble(
             labels.append(np.tile(label, (len(group), 1)))
     index = pd.concat(rows, ignore_index=True)[["object", "view", "task", "fold"]]
     label = np.concatenate(labels)
+    vectors = np.asarray(index["task"].to_numpy()[:, None] == np.array(tasks), dtype=np.float32)
     return Examples(
         index=index,
         inputs=np.concatenate(parts),
-        task_vectors=_one_hot(index["task"], tasks) if variant.task_vector else None,
+        task_vectors=vectors if variant.task_vector else None,
         labels=label,
         probabilities=label / label.sum(axis=1, keepdims=True),
     )
@@ -96,7 +97,3 @@ def _label(label_of: pd.DataFrame, name: str, tasks: Sequence[str]) -> np.ndarra
         raise InputError("samples", f"{name}, {missing[0]}", "has no label")
     rows = [label_of.loc[(name, task)].to_numpy(dtype=np.float32) for task in tasks]
     return np.asarray(np.maximum.reduce(rows).reshape(len(TYPES)))
-
-
-def _one_hot(named: pd.Series, tasks: Sequence[str]) -> np.ndarray:
-    return np.asarray(named.to_numpy()[:, None] == np.array(tasks), dtype=np.float32)

@@ -104,16 +104,13 @@ def trial_examples(known: VariantInputs, model: str, trial: VariantTrial) -> Exa
             shown = known.variants[variant]
             inputs[variant] = {encoding: views[: trial.views] for encoding, views in shown.items()}
     # There are no folds here: objects are left out.
+    views = {name: len(next(iter(shown.values()))) for name, shown in inputs.items()}
     folds = pd.concat(
-        pd.DataFrame({"object": name, "view": np.arange(_views(shown)), "fold": 0})
-        for name, shown in inputs.items()
+        pd.DataFrame({"object": name, "view": np.arange(count), "fold": 0})
+        for name, count in views.items()
     )
     labelled = inherit(known.samples, list(inputs))
     return assemble(VARIANTS[model], inputs, labelled, folds, list(known.tasks))
-
-
-def _views(shown: Mapping[str, np.ndarray]) -> int:
-    return len(next(iter(shown.values())))
 
 
 def inherit(samples: pd.DataFrame, names: Sequence[str]) -> pd.DataFrame:

@@ -16,7 +16,7 @@ from grasptypes.predictors.predictor import VARIANTS
 from grasptypes.predictors.scoring import SHORT
 from grasptypes.reports.breakdown import KNOWN, UNSEEN
 from grasptypes.reports.results import PAPER as PAPER_TABLE
-from grasptypes.reports.results import constant_rows
+from grasptypes.reports.results import PAPER_COLUMNS, constant_rows
 
 LABELLED = {
     "no_task": "(a) no task",
@@ -62,7 +62,7 @@ def draw_table(table: pd.DataFrame) -> Figure:
 def _bottom(rows: pd.DataFrame) -> float:
     """Start of the shared axis: below all bars, spreads, and the numbers at their base."""
     lows = [rows[f"{short}_mean"] - rows[f"{short}_sd"] for short in MEASURES]
-    lows += [rows[f"paper_{short}"] for short in MEASURES]
+    lows += [rows[name] for name in PAPER_COLUMNS]
     lowest = float(np.nanmin(np.concatenate(lows)))
     return max(0.0, float(np.floor((lowest - FOOT * TOP) / (1 - FOOT) * 10) / 10))
 
@@ -84,7 +84,7 @@ def _numbers(axes: Axes, places: np.ndarray, texts: list[str], colour: str) -> N
 
 
 def _has_paper(rows: pd.DataFrame) -> bool:
-    return bool(rows[[f"paper_{short}" for short in MEASURES]].notna().any(axis=None))
+    return bool(rows[list(PAPER_COLUMNS)].notna().any(axis=None))
 
 
 def _bars(axes: Axes, rows: pd.DataFrame, short: str) -> None:

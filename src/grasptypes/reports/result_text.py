@@ -8,6 +8,7 @@ import numpy as np
 import pandas as pd
 
 from grasptypes.predictors.scoring import SHORT
+from grasptypes.reports.results import PAPER_COLUMNS
 
 
 def markdown(table: pd.DataFrame) -> str:
@@ -16,7 +17,7 @@ def markdown(table: pd.DataFrame) -> str:
     Without figures from the paper, their column is replaced by a sentence that compares the models
     with the constant answer fitted to the other objects.
     """
-    paper = table[[f"paper_{short}" for short in SHORT.values()]].notna().any(axis=None)
+    paper = table[list(PAPER_COLUMNS)].notna().any(axis=None)
     heads = ["model", "labels", "similarity", "accuracy", "precision"]
     heads += ["paper", "ceiling"] if paper else ["ceiling"]
     lines = [" | ".join(heads), " | ".join("---" for _ in heads)]
@@ -24,7 +25,7 @@ def markdown(table: pd.DataFrame) -> str:
         cells = [row["model"], row["labels"]]
         cells += [_spread(row[f"{s}_mean"], row[f"{s}_sd"]) for s in SHORT.values()]
         if paper:
-            cells.append(_joined(row[f"paper_{short}"] for short in SHORT.values()))
+            cells.append(_joined(row[name] for name in PAPER_COLUMNS))
         cells.append(_joined(row[f"ceiling_{short}"] for short in ("sim", "acc")))
         lines.append(" | ".join(cells))
     used = table[table["n_folds"] > 0]

@@ -24,6 +24,7 @@ LITERATURE = ("literature", 0.93)
 CONSTANT_JOINT = "best_constant_joint"
 # The constant answer fitted to the other objects, by whether labels are joint.
 CONSTANT_OF_OTHERS = {False: "constant_of_others", True: "constant_of_others_joint"}
+PAPER_COLUMNS = tuple(f"paper_{short}" for short in SHORT.values())
 _SHARE = pa.Check.in_range(0, 1)
 RESULT_SCHEMA = pa.DataFrameSchema(
     {
@@ -38,7 +39,7 @@ RESULT_SCHEMA = pa.DataFrameSchema(
         },
         "n_folds": pa.Column(int, pa.Check.ge(0)),
         "n_seeds": pa.Column(int, pa.Check.ge(0)),
-        **{f"paper_{short}": pa.Column(float, nullable=True) for short in SHORT.values()},
+        **{name: pa.Column(float, nullable=True) for name in PAPER_COLUMNS},
         "ceiling_sim": pa.Column(float, _SHARE, nullable=True),
         "ceiling_acc": pa.Column(float, _SHARE, nullable=True),
         "sim_over_constant": pa.Column(float, pa.Check.in_range(-1, 1), nullable=True),
@@ -78,7 +79,7 @@ def tabulate(
     rows = [
         {"model": model, "labels": labels}
         | _trained(groups[model], unseen)
-        | ({} if unseen else _paper(model))
+        | ({} if unseen else dict(zip(PAPER_COLUMNS, PAPER[model], strict=True)))
         | _ceiling(model, reference.loc["task_blind"])
         | _over(constants.get(variant.joint_labels), groups[model])
         for model, variant in VARIANTS.items()
@@ -145,10 +146,6 @@ def _ceiling(model: str, task_blind: pd.Series) -> dict[str, float]:
         "ceiling_sim": 1.0 if knows else task_blind["angular_similarity"],
         "ceiling_acc": 1.0 if knows else task_blind["multilabel_accuracy"],
     }
-
-
-def _paper(model: str) -> dict[str, float]:
-    return {f"paper_{s}": value for s, value in zip(SHORT.values(), PAPER[model], strict=True)}
 
 
 def _typed(table: pd.DataFrame) -> pd.DataFrame:
