@@ -76,16 +76,10 @@ def samples_from_counts(counts: pd.DataFrame, file: str | Path = "counts") -> pd
         raise InputError(file, f"{first['object']}, {first['task']}", "has no valid grasp")
     labels = (numbers > 0).astype(int)
     probabilities = labels / labels.sum(axis=1, keepdims=True)
-    return pd.concat(
-        [
-            counts[["object", "task"]],
-            pd.DataFrame({"n_valid": numbers.sum(axis=1)}),
-            pd.DataFrame(numbers, columns=list(COUNTS)),
-            pd.DataFrame(probabilities, columns=list(PROBABILITIES)),
-            pd.DataFrame(labels, columns=list(LABELS)),
-        ],
-        axis=1,
-    )
+    columns = {"n_valid": numbers.sum(axis=1)}
+    for names, values in ((COUNTS, numbers), (PROBABILITIES, probabilities), (LABELS, labels)):
+        columns |= dict(zip(names, values.T, strict=True))
+    return counts[["object", "task"]].assign(**columns)
 
 
 def read_samples(path: str | Path) -> pd.DataFrame:

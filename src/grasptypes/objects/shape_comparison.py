@@ -96,11 +96,8 @@ def inside(mesh: trimesh.Trimesh, points_m: Array) -> NDArray[np.bool_]:
     by Barill et al. 2018) exceeds one half. Small holes barely change it, overlapping bodies count
     as one, and the absolute value allows for scans turned inside out.
     """
-    vertices = np.ascontiguousarray(mesh.vertices, dtype=np.float64)
-    faces = np.ascontiguousarray(mesh.faces, dtype=np.int64)
-    return np.asarray(
-        np.abs(igl.fast_winding_number(vertices, faces, np.ascontiguousarray(points_m))) > 0.5
-    )
+    winding = igl.fast_winding_number(*_arrays(mesh), np.ascontiguousarray(points_m))
+    return np.asarray(np.abs(winding) > 0.5)
 
 
 def sample_surface(mesh: trimesh.Trimesh, count: int) -> Array:
@@ -138,7 +135,13 @@ def intersection_over_union(a: trimesh.Trimesh, b: trimesh.Trimesh, samples: int
 
 def _distances(points: Array, mesh: trimesh.Trimesh) -> Array:
     """Return the distance (N,) of points to a mesh's surface."""
-    vertices = np.ascontiguousarray(mesh.vertices, dtype=np.float64)
-    faces = np.ascontiguousarray(mesh.faces, dtype=np.int64)
-    squared = igl.point_mesh_squared_distance(np.ascontiguousarray(points), vertices, faces)[0]
+    squared = igl.point_mesh_squared_distance(np.ascontiguousarray(points), *_arrays(mesh))[0]
     return np.asarray(np.sqrt(squared))
+
+
+def _arrays(mesh: trimesh.Trimesh) -> tuple[Array, NDArray[np.int64]]:
+    """Vertices (V, 3) and faces (F, 3) as libigl takes them."""
+    return (
+        np.ascontiguousarray(mesh.vertices, dtype=np.float64),
+        np.ascontiguousarray(mesh.faces, dtype=np.int64),
+    )

@@ -84,10 +84,6 @@ def describe(counts: pd.DataFrame) -> tuple[float, float]:
         counts: columns object, task and those of `samples.COUNTS`.
     """
     occurs = counts.set_index(["object", "task"])[list(COUNTS)] > 0
-    tasks = occurs.groupby("object").agg(["min", "max"])
-    differ = [
-        int((tasks[(name, "min")] != tasks[(name, "max")])[row])
-        for name in COUNTS
-        for row in tasks.index
-    ]
-    return float(occurs.sum(axis=1).mean()), float(np.sum(differ) / len(tasks))
+    tasks = occurs.groupby("object")
+    differ = (tasks.min() != tasks.max()).sum(axis=1)
+    return float(occurs.sum(axis=1).mean()), float(differ.mean())
