@@ -116,8 +116,5 @@ def _tube_cap(size: Size) -> Manifold:
         (size.cap_end_x_m - chamfer_m, size.cap_end_radius_m),
         (size.cap_end_x_m, size.cap_end_radius_m - chamfer_m),
     )
-    rings = [
-        (radius + wave)[:, None] * np.column_stack([np.cos(angles), np.sin(angles)])
-        for _, radius in rows
-    ]
+    rings = [(radius + wave)[:, None] * sections.circle(1.0, samples) for _, radius in rows]
     return lofts.loft_along("x", [x for x, _ in rows], rings)

@@ -98,8 +98,7 @@ def _on_axis(profile: sections.Curve, size: Size) -> Manifold:
 
 
 def _teapot_handle(size: Size) -> Manifold:
-    path = sections.smooth_curve(size.handle_path_m, 56)
-    path = np.column_stack([path[:, 0], np.zeros(len(path)), path[:, 1]])
+    path = sections.in_xz(sections.smooth_curve(size.handle_path_m, 56))
     along = np.linspace(0, 1, len(path))
     thin, root = size.handle_half_thickness_m, size.handle_root_half_thickness_m
     scales = np.column_stack([(thin + (root - thin) * along**2) / thin, np.ones_like(along)])
@@ -109,8 +108,7 @@ def _teapot_handle(size: Size) -> Manifold:
 
 def _teapot_spout(size: Size) -> Manifold:
     rows = sections.smooth_curve(size.spout_stations_m, 48)
-    low = np.column_stack([rows[:, 0], np.zeros(len(rows)), rows[:, 1]])
-    high = np.column_stack([rows[:, 2], np.zeros(len(rows)), rows[:, 3]])
+    low, high = sections.in_xz(rows[:, :2]), sections.in_xz(rows[:, 2:4])
     unit = sections.circle(1.0, 40)
     across = np.outer(rows[:, 4], [0.0, 1.0, 0.0])
     rings = (

@@ -59,12 +59,11 @@ def _banana_length(size: Size, start: float, end: float, swell: float) -> Manifo
     half_turn = np.arcsin(size.length_m / 2 / (size.bend_radius_m + size.girth_m[0][1]))
     along = np.linspace(start, end, max(6, int(80 * (end - start))))
     turn = half_turn * (2 * along - 1)
-    path = size.bend_radius_m * np.column_stack(
-        [np.sin(turn), np.zeros_like(turn), 1 - np.cos(turn)]
-    )
+    arc = np.column_stack([np.sin(turn), 1 - np.cos(turn)])
+    path = size.bend_radius_m * sections.in_xz(arc)
     angle = 2 * np.pi * np.arange(60) / 60
     ridged = 1 + size.ridge_height * (np.cos(size.ridges * (angle + np.pi / 2)) - 1) / 2
-    section = ridged[:, None] * np.column_stack([np.cos(angle), np.sin(angle)])
+    section = ridged[:, None] * sections.circle(1.0, 60)
     stations, radii = np.asarray(size.girth_m).T
     scales = swell * sections.monotone_curve(stations, radii, np.clip(along, 0, 1))
     return solids.sweep(path, section, scales)

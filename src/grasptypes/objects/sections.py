@@ -90,6 +90,11 @@ def rounded_rectangle(
     )
 
 
+def in_xz(curve: ArrayLike) -> Curve:
+    """Put a plane curve (N, 2) into the plane y = 0: (N, 3)."""
+    return np.insert(np.asarray(curve, dtype=np.float64), 1, 0.0, axis=1)
+
+
 def offset_curve(curve: ArrayLike, distance_m: float) -> Curve:
     """Move each point of a (N, 2) open curve to the left of its direction of travel.
 

@@ -11,19 +11,11 @@ def water_bottle(size: Size) -> Solids:
     """The water bottle: cap, neck, shoulder, label and body."""
     foot = size.foot_radius_m
     turn = np.radians(np.linspace(0, 90, 17))
-    low = np.column_stack(
-        [
-            foot + (size.body_radius_m - foot) * np.sin(turn),
-            size.bottom_height_m + size.foot_round_height_m * (1 - np.cos(turn)),
-        ]
-    )
-    rise = np.column_stack(
-        [
-            size.body_radius_m * np.cos(turn),
-            size.shoulder_height_m
-            + (size.neck_height_m + 0.0008 - size.shoulder_height_m) * np.sin(turn),
-        ]
-    )
+    sine, cosine = np.sin(turn), np.cos(turn)
+    low_z = size.bottom_height_m + size.foot_round_height_m * (1 - cosine)
+    low = np.column_stack([foot + (size.body_radius_m - foot) * sine, low_z])
+    rise_m = size.neck_height_m + 0.0008 - size.shoulder_height_m
+    rise = np.column_stack([size.body_radius_m * cosine, size.shoulder_height_m + rise_m * sine])
     dimple = [
         (0.0, size.bottom_height_m + size.dimple_height_m),
         (size.dimple_radius_m / 2, size.bottom_height_m + size.dimple_height_m),

@@ -77,13 +77,9 @@ def _mug_handle(size: Size) -> Manifold:
     """Sweep half an ellipse, thicker at its ends, and cut it off inside the wall."""
     turn = np.radians(np.linspace(-100, 100, 49))
     wall_m = size.axis_x_m + size.outer_radius_m
-    path = np.column_stack(
-        [
-            wall_m + size.handle_reach_m * np.cos(turn),
-            np.zeros_like(turn),
-            size.handle_centre_height_m + size.handle_half_height_m * np.sin(turn),
-        ]
-    )
+    half_axes_m = [size.handle_reach_m, size.handle_half_height_m]
+    ellipse = half_axes_m * np.column_stack([np.cos(turn), np.sin(turn)])
+    path = sections.in_xz([wall_m, size.handle_centre_height_m] + ellipse)
     half = size.handle_half_width_m
     thickness = half + (size.handle_root_half_thickness_m - half) * np.sin(turn) ** 2
     scales = np.column_stack([thickness / half, np.ones_like(turn)])
