@@ -31,6 +31,11 @@ def test_reads_rows_by_object_and_task(tmp_path):
     assert table["mug", "show"][0].parts == ()
 
 
+def test_a_missing_table_is_named(tmp_path):
+    with pytest.raises(InputError, match="no such affinity table"):
+        read_affinities(tmp_path / "none.csv", ["mug"], TASKS)
+
+
 def test_unknown_part_and_missing_object_are_named(tmp_path):
     path = _table(tmp_path, GOOD)
     table = read_affinities(path, ["mug"], TASKS)

@@ -13,7 +13,9 @@ from grasptypes.labels.agreement import (
     THRESHOLD_SCHEMA,
     LabelledGrasps,
     agreement,
+    confusion,
     cross_validate,
+    describe_fit,
     fit_thresholds,
     measure_published,
 )
@@ -46,6 +48,20 @@ def test_a_row_an_object_and_one_for_all():
     assert table.object.tolist() == ["a", "b", "all"]
     assert table.accuracy.tolist() == [0.5, 1.0, 0.75]
     assert table.kappa.tolist() == [0.0, 1.0, 0.6]
+
+
+def test_confusion_counts_people_in_rows():
+    grasps = LabelledGrasps(np.array(["a"] * 3), np.array([0, 0, 5]), Measures(*np.ones((4, 3))))
+    counts = confusion(grasps, np.array([0, 3, 5]))
+    assert counts[0, 0] == counts[0, 3] == counts[5, 5] == 1
+    assert counts.sum() == 3
+
+
+def test_words_for_the_fit():
+    assert describe_fit(["mug", "pan"], ["mug", "cup"]) == [
+        "2 objects, this one too",
+        "2 other objects",
+    ]
 
 
 def test_the_fit_finds_thresholds_that_made_the_labels():
