@@ -14,7 +14,8 @@ import pybullet
 from benchmarks.figures import Figure, NotReady, figure, rates, seconds
 
 from grasptypes.contact_maps.contact_map_files import read_contact_map
-from grasptypes.hand.states import HandStates
+from grasptypes.hands.reading import load_hand
+from grasptypes.hands.states import HandStates
 from grasptypes.objects.object_geometry import read_object
 from grasptypes.seeds import rng
 from grasptypes.settings.params import Params
@@ -33,8 +34,6 @@ from grasptypes.synthesis.trials import (
     synthesize_sessions,
 )
 
-URDF = Path("assets/barrett_hand/barrett_hand.urdf")
-
 
 class Case(NamedTuple):
     """The sessions that are synthesized, and how."""
@@ -49,10 +48,11 @@ class Case(NamedTuple):
 def measure(settings: Mapping[str, Any], params: Params) -> Iterator[Figure]:
     """Candidates, physics tests, and valid grasps with everything they need."""
     task = _load(settings, params)
-    hand, surface_m = sample_hand(params.synthesis), task.contact_map.points.astype(np.float64)
-    scene = grasp_scene(hand.search, task.geometry, surface_m)
-    with physics(URDF, task.geometry, params.physics.test) as world:
-        check = scene._replace(hand=hand.check)
+    hand, surface_m = load_hand(params.hand), task.contact_map.points.astype(np.float64)
+    models = sample_hand(hand, params.synthesis)
+    scene = grasp_scene(hand, models.search, task.geometry, surface_m)
+    with physics(hand, task.geometry, params.physics.test) as world:
+        check = scene._replace(model=models.check)
         tester = GraspTester(check, world, params.physics.validity)
         case = Case(task, scene, tester, params.synthesis)
         yield _candidates(case, settings["rounds"])
@@ -76,7 +76,7 @@ def _load(settings: Mapping[str, Any], params: Params) -> SynthesisTask:
 def _candidates(case: Case, rounds: int) -> Figure:
     """Hands placed, closed and evaluated, compared with one distance lookup per point."""
     shown, number = list(demonstrations(case.task.contact_map)), case.settings.candidates.number
-    points = np.tile(case.scene.hand.points, (number, 1))
+    points = np.tile(case.scene.model.points, (number, 1))
 
     def place() -> None:
         for index, demonstration in enumerate(shown):
@@ -96,14 +96,14 @@ def _place(case: Case, demonstration: Demonstration, draw: np.random.Generator) 
     touch_m = settings.closing.touch_m
     hands = draw_candidates(scene, demonstration, settings.candidates, touch_m, draw)
     poses = hands.link_poses()
-    energies(scene.hand, poses, closeness(scene, poses), targets, settings.energy)
+    energies(scene.model, poses, closeness(scene, poses), targets, settings.energy)
 
 
 def _tests(case: Case, world: Physics, rounds: int) -> Figure:
     """The test of a grasp that holds, compared with as many bare time steps of hand and object."""
     hands = _holding(case, world)
     before = world.steps
-    hold = partial(world.hold, hands.T_object_hand[0], hands.joint_angles_rad[0])
+    hold = partial(world.hold, hands.T_object_hand[0], hands.joint_positions[0])
     hold()
     steps = world.steps - before
 
@@ -120,6 +120,6 @@ def _holding(case: Case, world: Physics) -> HandStates:
     for number, demonstration in enumerate(demonstrations(case.task.contact_map)):
         draw = rng("benchmark", number)
         hands = search_session(case.scene, demonstration, case.settings, draw).hands
-        if not world.hold(hands.T_object_hand[0], hands.joint_angles_rad[0]).dropped:
+        if not world.hold(hands.T_object_hand[0], hands.joint_positions[0]).dropped:
             return hands
     raise NotReady("no session's best grasp holds")

@@ -1,6 +1,7 @@
 # Shared by all rules: the checked parameters, the names to loop over, and content hashes.
 import re
 
+from grasptypes.hands.reading import hand_files, hand_folder
 from grasptypes.labels.label_sources import (
     FETCHED,
     label_sources,
@@ -25,6 +26,8 @@ try:
     OBJECTS, VARIANTS = all_objects(PARAMS.objects), all_variants(PARAMS.objects)
     TASKS = list(config["tasks"])
     KNOWN = label_sources(config["labels"], PUBLISHED_COUNTS, OBJECTS, TASKS)
+    for name in (config["hand"], config["published"]["hand"]):
+        hand_folder(name)
 except InputError as error:
     sys.exit(f"error: {error}")
 
@@ -55,11 +58,11 @@ def hashes(paths):
     return {Path(path).name: file_hash(path) for path in paths}
 
 
-def hand_hashes(folder):
-    """Hashes of the hand's URDF and of the shapes it names, which lie below the same folder."""
-    return hashes(
-        sorted(path for end in ("urdf", "obj") for path in Path(folder).rglob(f"*.{end}"))
-    )
+def hand_parameter(name):
+    """A hand by name, and the hashes of all files that describe it."""
+    folder = hand_folder(name)
+    files = {str(path.relative_to(folder)): file_hash(path) for path in hand_files(name)}
+    return {"name": name, "files": files}
 
 
 def object_settings(wildcards):

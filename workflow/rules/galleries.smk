@@ -10,6 +10,7 @@ rule picture_grasps:
     output:
         pictures="data/screenshots/{object}.zip",
     params:
+        hand=hand_parameter(config["hand"]),
         tasks=TASKS,
         renders=settings("renders", "views", "sheet"),
         settings=config["gallery"],
@@ -32,6 +33,7 @@ rule plot_grasps:
             labels={"subject": "gallery", "kind": "figure"},
         ),
     params:
+        hand=hand_parameter(config["hand"]),
         names=[(name, task) for name in OBJECTS for task in TASKS],
         objects=OBJECTS,
         renders=settings("renders", "views", "sheet"),
@@ -55,6 +57,7 @@ rule plot_rejected_grasps:
             labels={"subject": "rejected grasps", "kind": "figure"},
         ),
     params:
+        hand=hand_parameter(config["hand"]),
         objects=OBJECTS,
         renders=settings("renders", "views", "sheet"),
         settings=config["gallery"],
@@ -81,6 +84,7 @@ rule plot_sessions:
             for name in OBJECTS
         ],
     params:
+        hand=hand_parameter(config["hand"]),
         objects=OBJECTS,
         tasks=TASKS,
         settings=config["gallery"]["sessions"],

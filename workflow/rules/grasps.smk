@@ -7,14 +7,13 @@ rule synthesize_grasps:
         collision=rules.prepare_object.output.collision,
         properties=rules.prepare_object.output.properties,
         contact_map=rules.map_contacts.output.contact_map,
-        hand="assets/barrett_hand/barrett_hand.urdf",
     output:
         grasps="data/grasps/{object}/{task}.parquet",
         attempts="data/attempts/{object}/{task}.parquet",
     params:
         synthesis=settings("synthesis"),
         physics=settings("physics"),
-        hand=hand_hashes("assets/barrett_hand"),
+        hand=hand_parameter(config["hand"]),
         seed=config["seed"],
         code=script_hash("synthesize_grasps"),
     message:

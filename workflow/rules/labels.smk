@@ -22,6 +22,7 @@ rule evaluate_labels:
             labels={"subject": "agreement with people", "kind": "figure"},
         ),
     params:
+        hand=hand_parameter(config["published"]["hand"]),
         settings=settings("grasp_types"),
         data=lambda wildcards: measuring_hashes(),
         scale=config["replay"]["object_scale"],
@@ -40,6 +41,7 @@ rule label_grasps:
         grasps="data/grasps.csv",
         samples="data/samples.csv",
     params:
+        hand=hand_parameter(config["hand"]),
         settings=settings("grasp_types", "fitted_on", "softness", "own_frames"),
         code=script_hash("label_grasps"),
     message:
@@ -86,8 +88,9 @@ rule plot_label_tree:
             labels={"subject": "label tree", "kind": "figure"},
         ),
     params:
+        hand=hand_parameter(config["hand"]),
         objects=OBJECTS,
-        thresholds=config["grasp_types"]["thresholds"],
+        settings=settings("grasp_types", "fitted_on", "softness", "own_frames"),
         code=script_hash("plot_label_tree"),
     message:
         "Drawing the tree of grasp types"

@@ -13,7 +13,6 @@ rule compare_plans:
         objects=lambda wildcards: expand(
             rules.prepare_object.output, object=KNOWN[ASKED.labels].objects
         ),
-        hand="assets/barrett_hand/barrett_hand.urdf",
     output:
         table=report(
             "reports/planning.csv",
@@ -26,7 +25,7 @@ rule compare_plans:
     params:
         params=dict(config),
         tasks=lambda wildcards: learning_tasks(ASKED),
-        hand=hand_hashes("assets/barrett_hand"),
+        hand=hand_parameter(config["hand"]),
         code=script_hash("compare_plans"),
     message:
         "Planning with and without choosing types first"

@@ -27,6 +27,7 @@ rule replay_grasps:
             labels={"subject": "published poses", "kind": "table"},
         ),
     params:
+        hand=hand_parameter(config["published"]["hand"]),
         settings=config["replay"],
         data=lambda wildcards: measuring_hashes(),
         code=script_hash("replay_grasps"),
@@ -47,6 +48,7 @@ rule derive_affinities:
         summary="reports/contact_evidence/summary.csv",
         pattern="reports/contact_evidence/pattern.csv",
     params:
+        hand=hand_parameter(config["published"]["hand"]),
         objects=OBJECTS,
         scale=config["replay"]["object_scale"],
         data=lambda wildcards: measuring_hashes(),

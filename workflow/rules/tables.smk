@@ -101,6 +101,7 @@ rule summarise_scores:
         models=expand("reports/scores/{labels}/{model}.json", labels=LABELS, model=MODELS),
         grasps="reports/scores/grasps.json",
     params:
+        hand=hand_parameter(config["hand"]),
         code=script_hash("summarise_scores"),
     message:
         "Summarising the results"

@@ -35,7 +35,7 @@ def cases(
     """All plans to make.
 
     Args:
-        inputs: those of `read_problem`, and the hand's URDF.
+        inputs: those of `read_problem`.
         folders: of the prepared objects, by name.
         tasks: tasks with labels, each with its colour shift.
         params: all parameters.
@@ -52,7 +52,7 @@ def cases(
         chosen = predicted.get(name) or predicted[name[0], ""]  # "" if the task is unseen
         types = {PREDICTED: chosen, LABELLED: kinds}
         geometry = read_object(folders[name[0]])
-        context = PlanningContext(geometry, name[1], name[0], Path(inputs["hand"]), params)
+        context = PlanningContext(geometry, name[1], name[0], params.hand, params)
         found += [Case(context, choice, types) for choice in CHOICES]
     return found
 

@@ -14,6 +14,8 @@ from grasptypes.contact_maps.contact_evidence import (
     summarise,
 )
 from grasptypes.errors import InputError
+from grasptypes.hands.hand import Hand
+from grasptypes.hands.reading import load_hand
 from grasptypes.jobs import job
 from grasptypes.labels.published import read_published
 from grasptypes.objects.object_files import read_surface
@@ -23,6 +25,7 @@ from grasptypes.tables import write_table
 
 def derive_affinities(
     published: str | Path,
+    hand: Hand,
     meshes: str | Path,
     surfaces: Mapping[str, str],
     targets: tuple[str | Path, str | Path, str | Path],
@@ -36,7 +39,8 @@ def derive_affinities(
     for name, group in known.groupby("object", sort=True):
         if name in surfaces:
             scan = Path(meshes) / f"{name}.stl"
-            rows += object_evidence(group, read_surface(surfaces[name]), scan, scale, settings)
+            surface = read_surface(surfaces[name])
+            rows += object_evidence(group, hand, surface, scan, scale, settings)
     evidence = pd.DataFrame(rows)
     write_table(evidence, targets[0], EVIDENCE_SCHEMA)
     write_table(summarise(evidence), targets[1], SUMMARY_SCHEMA)
@@ -50,6 +54,7 @@ if __name__ == "__main__":
             raise InputError(variables, "", "must name the published poses and the scans")
         derive_affinities(
             snakemake.input.published,
+            load_hand(snakemake.params.hand["name"]),
             Path(snakemake.input.references[0]).parent,
             dict(zip(snakemake.params.objects, snakemake.input.surfaces, strict=True)),
             (

@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 
 from grasptypes.errors import InputError
+from grasptypes.hands.reading import load_hand
 from grasptypes.jobs import job
 from grasptypes.labels.agreement import (
     AGREEMENT_SCHEMA,
@@ -52,10 +53,11 @@ if __name__ == "__main__":
     with job(snakemake.log) as log:
         settings = GraspTypeSettings.check(snakemake.params.settings)
         out = snakemake.output
+        hand = load_hand(snakemake.params.hand["name"])
         lacking = lacking_data(os.environ)
         if lacking:
             raise InputError("reports/label_agreement.csv", "", f"cannot be made: {lacking}")
-        grasps = labelled_grasps(os.environ, OWN_OBJECTS, snakemake.params.scale, settings)
+        grasps = labelled_grasps(os.environ, hand, OWN_OBJECTS, snakemake.params.scale, settings)
         fitted = {*grasps.objects} & {*settings.fitted_on}
         if len(fitted) < 2:
             message = f"has grasps of {len(fitted)} of the objects that grasp_types.fitted_on names"

@@ -3,39 +3,42 @@
 from collections.abc import Mapping
 from pathlib import PurePath
 
+from grasptypes.hands.hand import Hand
+from grasptypes.hands.reading import load_hand
 from grasptypes.jobs import job
-from grasptypes.labels.dataset import DATASET_SCHEMA, VALID
+from grasptypes.labels.dataset import VALID, dataset_schema
 from grasptypes.labels.label_pictures import save_figure
 from grasptypes.labels.label_tree import draw_label_tree, typical_grasps
 from grasptypes.reports.session_pictures import read_named_pictures
-from grasptypes.settings.grasp_types import Thresholds
+from grasptypes.settings.grasp_types import LabellingRule
 from grasptypes.tables import read_table
 
 
 def plot_label_tree(
-    dataset: str, archives: Mapping[str, str], target: str, thresholds: Thresholds
+    hand: Hand, dataset: str, archives: Mapping[str, str], target: str, rule: LabellingRule
 ) -> None:
     """Write the figure.
 
     Args:
-        dataset: of `dataset.DATASET_SCHEMA`.
+        dataset: of `dataset.dataset_schema`.
         archives: images of all grasps, by object.
     """
-    table = read_table(dataset, DATASET_SCHEMA)
+    table = read_table(dataset, dataset_schema(hand))
     counts = table[table.reason == VALID].GraspType.value_counts().to_dict()
     pictures = {
         name: read_named_pictures(archives[row.Object])[PurePath(row.Image).name]
         for name, row in typical_grasps(table).items()
     }
     rejected = int((table.reason != VALID).sum())
-    save_figure(draw_label_tree(counts, rejected, thresholds, pictures), target)
+    save_figure(draw_label_tree(counts, rejected, rule.thresholds_of(hand), pictures), target)
 
 
 if __name__ == "__main__":
     with job(snakemake.log):
         plot_label_tree(
+            load_hand(snakemake.params.hand["name"]),
             snakemake.input.dataset,
             dict(zip(snakemake.params.objects, snakemake.input.pictures, strict=True)),
             snakemake.output.figure,
-            Thresholds.check(snakemake.params.thresholds),
+            LabellingRule.check(snakemake.params.settings),
         )

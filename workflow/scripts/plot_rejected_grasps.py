@@ -6,9 +6,11 @@ from pathlib import Path
 import pandas as pd
 
 from grasptypes.files import write_bytes
+from grasptypes.hands.hand import Hand
+from grasptypes.hands.reading import load_hand
 from grasptypes.jobs import job
 from grasptypes.renders.contact_pictures import plain
-from grasptypes.renders.gallery import grasp_picture, pose_of
+from grasptypes.renders.gallery import grasp_picture, state_of
 from grasptypes.renders.renderer import Camera, png_bytes
 from grasptypes.renders.scene import load_parts
 from grasptypes.reports.rejections import caption, examples, heading
@@ -19,6 +21,7 @@ from grasptypes.tables import read_table
 
 
 def plot_rejected_grasps(
+    hand: Hand,
     tables: Sequence[str | Path],
     visuals: Mapping[str, str | Path],
     target: str | Path,
@@ -35,7 +38,7 @@ def plot_rejected_grasps(
                 Tile(
                     grasp_picture(
                         load_parts(visuals[row.object]),
-                        *pose_of(row),
+                        state_of(hand, row),
                         camera,
                         settings.elevation_rad,
                     ),
@@ -51,6 +54,7 @@ def plot_rejected_grasps(
 if __name__ == "__main__":
     with job(snakemake.log):
         plot_rejected_grasps(
+            load_hand(snakemake.params.hand["name"]),
             snakemake.input.attempts,
             dict(zip(snakemake.params.objects, snakemake.input.visuals, strict=True)),
             snakemake.output.sheet,

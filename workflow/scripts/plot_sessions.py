@@ -3,8 +3,10 @@
 from collections.abc import Mapping, Sequence
 
 from grasptypes.files import write_bytes
+from grasptypes.hands.hand import Hand
+from grasptypes.hands.reading import load_hand
 from grasptypes.jobs import job
-from grasptypes.labels.dataset import DATASET_SCHEMA
+from grasptypes.labels.dataset import dataset_schema
 from grasptypes.renders.renderer import png_bytes
 from grasptypes.reports.session_pictures import read_named_pictures, session_groups
 from grasptypes.reports.sheets import sheet
@@ -13,6 +15,7 @@ from grasptypes.tables import read_table
 
 
 def plot_sessions(
+    hand: Hand,
     dataset: str,
     archives: Mapping[str, str],
     targets: Mapping[str, str],
@@ -23,11 +26,11 @@ def plot_sessions(
     """Write a sheet for each object.
 
     Args:
-        dataset: of `dataset.DATASET_SCHEMA`.
+        dataset: of `dataset.dataset_schema`.
         archives: images by object.
         targets: files to write, by object.
     """
-    table = read_table(dataset, DATASET_SCHEMA)
+    table = read_table(dataset, dataset_schema(hand))
     for name, archive in archives.items():
         rows = table[table.Object == name]
         groups = session_groups(rows, read_named_pictures(archive), tasks)
@@ -39,6 +42,7 @@ if __name__ == "__main__":
     with job(snakemake.log):
         objects: Sequence[str] = snakemake.params.objects
         plot_sessions(
+            load_hand(snakemake.params.hand["name"]),
             snakemake.input.dataset,
             dict(zip(objects, snakemake.input.pictures, strict=True)),
             dict(zip(objects, snakemake.output.sheets, strict=True)),

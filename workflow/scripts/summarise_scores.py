@@ -5,8 +5,9 @@ from pathlib import Path
 import pandas as pd
 
 from grasptypes.files import write_json
+from grasptypes.hands.reading import load_hand
 from grasptypes.jobs import job
-from grasptypes.labels.dataset import DATASET_SCHEMA
+from grasptypes.labels.dataset import dataset_schema
 from grasptypes.reports.distribution import DISTRIBUTION_SCHEMA
 from grasptypes.reports.scores import grasp_scores, model_scores
 from grasptypes.tables import read_table
@@ -33,7 +34,8 @@ if __name__ == "__main__":
     with job(snakemake.log):
         files = {(Path(p).parent.name, Path(p).stem): p for p in snakemake.output.models}
         summarise_scores(snakemake.input.known, snakemake.input.unseen or None, files)
-        dataset = read_table(snakemake.input.grasps, DATASET_SCHEMA)
+        schema = dataset_schema(load_hand(snakemake.params.hand["name"]))
+        dataset = read_table(snakemake.input.grasps, schema)
         compared = snakemake.input.distribution
         distribution = read_table(compared, DISTRIBUTION_SCHEMA) if compared else None
         write_json(snakemake.output.grasps, grasp_scores(dataset, distribution))

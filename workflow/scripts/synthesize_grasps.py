@@ -4,6 +4,8 @@ from collections.abc import Mapping
 from pathlib import Path
 
 from grasptypes.contact_maps.contact_map_files import read_contact_map
+from grasptypes.hands.hand import Hand
+from grasptypes.hands.reading import load_hand
 from grasptypes.jobs import job
 from grasptypes.objects.object_geometry import read_object
 from grasptypes.settings.physics import GraspTestSettings
@@ -15,12 +17,12 @@ from grasptypes.tables import write_table
 
 def write_grasps(
     task: SynthesisTask,
-    urdf: str | Path,
+    hand: Hand,
     settings: tuple[SynthesisSettings, GraspTestSettings],
     outputs: Mapping[str, str | Path],
 ) -> None:
-    """Write the tables of grasps and attempts of a task, with the hand of a URDF."""
-    grasps, attempts = synthesize(task, urdf, *settings)
+    """Write the tables of grasps and attempts of a task and a hand."""
+    grasps, attempts = synthesize(task, hand, *settings)
     write_table(grasps, outputs["grasps"], GRASP_SCHEMA)
     write_table(attempts, outputs["attempts"], ATTEMPT_SCHEMA)
 
@@ -36,7 +38,7 @@ if __name__ == "__main__":
                 read_contact_map(inputs.contact_map),
                 params.seed,
             ),
-            inputs.hand,
+            load_hand(params.hand["name"]),
             (
                 SynthesisSettings.check(params.synthesis),
                 GraspTestSettings.check(params.physics),

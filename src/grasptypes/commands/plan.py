@@ -28,6 +28,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--mass-kg", type=_number, help="mass of the object (default: that of a solid of water)"
     )
+    parser.add_argument(
+        "--hand", help="name of a hand, or folder with one (default: hand in params.yaml)"
+    )
     parser.add_argument("--contact-map", type=Path, help="PLY whose red channel says where to hold")
     parser.add_argument(
         "--type",
@@ -60,7 +63,7 @@ def run(args: argparse.Namespace) -> str:
     from grasptypes.planning.plan_summary import report, summarise
     from grasptypes.planning.planner import Planner
 
-    planner = Planner(args.folder, jobs=args.jobs, tell=_tell)
+    planner = Planner(args.folder, hand=args.hand, jobs=args.jobs, tell=_tell)
     # Check everything before anything is computed.
     planner.check_request(args.task, args.type, args.mass_kg)
     scan = MeasuredMap(args.contact_map, UNITS_M[args.unit]) if args.contact_map else None

@@ -17,7 +17,9 @@ from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 from grasptypes.contact_maps.affinities import SIDES
-from grasptypes.hand import configuration, kinematics, shapes
+from grasptypes.hands import configuration
+from grasptypes.hands.hand import PALM, Hand
+from grasptypes.hands.surface import surface_points
 from grasptypes.labels.replay import read_reference_mesh
 from grasptypes.objects.distance_grid import signed_distance
 from grasptypes.objects.object_files import Surface
@@ -94,6 +96,7 @@ class PartPoints(NamedTuple):
 
 def object_evidence(
     grasps: pd.DataFrame,
+    hand: Hand,
     surface: Surface,
     scan: Path,
     scale: float,
@@ -103,6 +106,7 @@ def object_evidence(
 
     Args:
         grasps: rows of `published.read_published` with a configuration and a valid label.
+        hand: the hand of their poses.
         surface: our model, in metres at the grasped scale.
         scan: mesh of the real object at scale 1; if there is none, our model is used.
     """
@@ -114,33 +118,39 @@ def object_evidence(
     names = [str(part) for part in surface.part_names]
     ours = PartPoints(ours_m, surface.part_index, names)
     lengths = settings.hand_spacing_m, settings.touch_m
-    return [session_evidence(grasp, mesh, ours, *lengths) for _, grasp in grasps.iterrows()]
+    return [session_evidence(grasp, hand, mesh, ours, *lengths) for _, grasp in grasps.iterrows()]
 
 
 def session_evidence(
-    grasp: pd.Series, mesh: trimesh.Trimesh, ours: PartPoints, spacing_m: float, touch_m: float
+    grasp: pd.Series,
+    hand: Hand,
+    mesh: trimesh.Trimesh,
+    ours: PartPoints,
+    spacing_m: float,
+    touch_m: float,
 ) -> dict[str, str | int | float]:
     """One row of evidence: how one published grasp holds its object.
 
     Args:
         grasp: a row of `published.read_published` with a configuration and a valid label.
+        hand: the hand of its pose.
         mesh: the object of the pose, metres, in the pose's frame.
         ours: our model of the same object in the same frame.
         spacing_m: distance between neighbouring points on the hand.
         touch_m: largest distance that counts as touching.
     """
-    hand = configuration.unpack(grasp.hand_configuration)
-    poses = hand.T_object_hand @ kinematics.link_poses(kinematics.couple(hand.dofs_rad))
-    surface = shapes.surface_points(spacing_m)
+    posed = configuration.unpack(grasp.hand_configuration)
+    poses = posed.T_object_hand @ hand.link_poses(hand.couple(posed.dofs))
+    surface = surface_points(hand, spacing_m)
     T = poses[surface.link_index]
     points = np.einsum("pij,pj->pi", T[:, :3, :3], surface.points_m) + T[:, :3, 3]
     distance_m = signed_distance(points, mesh.vertices, mesh.faces)
     # A pose that touches nothing is classified by what it is closest to.
     touching = distance_m < max(touch_m, distance_m.min() + touch_m / 2)
     _, nearest = cKDTree(ours.points_m).query(points[touching])
-    side, cosine = _nearest_side(-hand.T_object_hand[:3, 2])
+    side, cosine = _nearest_side(-posed.T_object_hand[:3, 2])
     height = _relative(ours.points_m[nearest], ours.points_m)
-    palm = surface.link_index == kinematics.LINK_NAMES.index("palm")
+    palm = surface.link_index == PALM
     return {
         "object": grasp.object,
         "task": grasp.task,
@@ -149,10 +159,10 @@ def session_evidence(
         "part": _touched_parts(ours, nearest),
         "palm_side": side,
         "palm_side_cosine": round(cosine, 3),
-        "axis": _nearest_side(hand.T_object_hand[:3, 0])[0][1],
+        "axis": _nearest_side(posed.T_object_hand[:3, 0])[0][1],
         "palm_gap_mm": round(1e3 * max(float(distance_m[palm].min()), 0.0), 1),
         **{name: round(float(share), 3) for name, share in zip(POSITION, height, strict=True)},
-        "spread_deg": round(float(np.degrees(hand.dofs_rad[0])), 1),
+        "spread_deg": round(float(np.degrees(posed.dofs[0])), 1),
     }
 
 

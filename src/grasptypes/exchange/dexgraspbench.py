@@ -28,9 +28,9 @@ from grasptypes.exchange.records import (
     to_position_quaternion,
 )
 from grasptypes.files import write_bytes
-from grasptypes.hand.kinematics import JOINT_LIMITS_RAD, JOINT_NAMES
+from grasptypes.hands.hand import Hand
 
-QPOS = 7 + len(JOINT_NAMES)
+POSE = 7
 OPEN, CLOSED = 0.9, 1.1
 _NUMPY = {"_reconstruct", "scalar", "ndarray", "dtype", "_frombuffer"}
 
@@ -53,22 +53,22 @@ def write_grasp(
         object_path: folder of the object as prepared by MeshProcess.
     """
     pose = to_position_quaternion(hands.T_object_hand[index])
-    angles = hands.joint_angles_rad[index]
+    hand, positions = hands.hand, hands.joint_positions[index]
     content = {
         "obj_pose": to_position_quaternion(RigidTransform.identity()),
         "obj_scale": float(scale),
         "obj_path": object_path,
-        "pregrasp_qpos": np.concatenate([pose, _turned(angles, OPEN)]),
-        "grasp_qpos": np.concatenate([pose, angles]),
-        "squeeze_qpos": np.concatenate([pose, _turned(angles, CLOSED)]),
+        "pregrasp_qpos": np.concatenate([pose, _turned(hand, positions, OPEN)]),
+        "grasp_qpos": np.concatenate([pose, positions]),
+        "squeeze_qpos": np.concatenate([pose, _turned(hand, positions, CLOSED)]),
     }
     buffer = io.BytesIO()
     np.save(buffer, np.array(content, dtype=object), allow_pickle=True)
     write_bytes(path, buffer.getvalue())
 
 
-def read_grasp(path: str | Path) -> PosedHands:
-    """Read one grasp of the BarrettHand with eight joints in our order.
+def read_grasp(path: str | Path, hand: Hand) -> PosedHands:
+    """Read one grasp of a hand with its joints in our order.
 
     Raises:
         InputError: the file is not a grasp, or has content other than arrays and plain values.
@@ -78,17 +78,19 @@ def read_grasp(path: str | Path) -> PosedHands:
     if missing:
         raise InputError(path, ", ".join(sorted(missing)), "is missing")
     qpos = np.asarray(content["grasp_qpos"], dtype=np.float64)
-    if qpos.shape != (QPOS,):
-        raise InputError(path, "grasp_qpos", f"has shape {qpos.shape} instead of ({QPOS},)")
-    poses = from_position_quaternion(content["obj_pose"]), from_position_quaternion(qpos[:7])
+    length = POSE + len(hand.joints)
+    if qpos.shape != (length,):
+        raise InputError(path, "grasp_qpos", f"has shape {qpos.shape} instead of ({length},)")
+    poses = from_position_quaternion(content["obj_pose"]), from_position_quaternion(qpos[:POSE])
     name, held = Path(str(content["obj_path"])).name, bool(content.get("succ_flag", True))
-    return relative(name, poses, qpos[7:], held)
+    return relative(name, hand, poses, qpos[POSE:], held)
 
 
-def _turned(angles: NDArray[np.float64], factor: float) -> NDArray[np.float64]:
-    """Joint angles (8,) with the fingers' scaled by a factor, clipped to the limits."""
-    turned = np.concatenate([angles[:2], angles[2:] * factor])
-    return np.asarray(np.clip(turned, *JOINT_LIMITS_RAD.T))
+def _turned(hand: Hand, positions: NDArray[np.float64], factor: float) -> NDArray[np.float64]:
+    """Joint positions (J,) with those of closing joints scaled by a factor, within the limits."""
+    turned = positions.copy()
+    turned[[joint for finger in hand.fingers for joint in finger.joints]] *= factor
+    return np.asarray(np.clip(turned, *hand.joint_limits.T))
 
 
 def _read(path: str | Path) -> dict[str, Any]:

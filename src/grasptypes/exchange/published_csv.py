@@ -10,7 +10,8 @@ from numpy.typing import ArrayLike
 from scipy.spatial.transform import RigidTransform
 
 from grasptypes.exchange.records import PosedHands
-from grasptypes.hand import configuration, kinematics
+from grasptypes.hands import configuration
+from grasptypes.hands.hand import Hand
 
 
 def authors_columns(table: pd.DataFrame, types: Sequence[str]) -> pd.DataFrame:
@@ -18,7 +19,7 @@ def authors_columns(table: pd.DataFrame, types: Sequence[str]) -> pd.DataFrame:
 
     Args:
         table: columns object, task, session, grasp_type, rank (from 0), energy, pose_index,
-            hand_configuration (17 numbers each) and image.
+            hand_configuration (13 + D numbers each) and image.
         types: all grasp types, in the order of their indices.
     """
     return pd.DataFrame(
@@ -39,16 +40,16 @@ def authors_columns(table: pd.DataFrame, types: Sequence[str]) -> pd.DataFrame:
 
 
 def format_configuration(numbers: ArrayLike) -> str:
-    """17 numbers as a cell: an integer rank index, the rest with nine digits."""
+    """A hand configuration as a cell: an integer rank index, the rest with nine digits."""
     rank_index, *others = np.asarray(numbers, dtype=np.float64)
     return ",".join([str(int(rank_index)), *(f"{value:.9g}" for value in others)])
 
 
-def posed_hands(published: pd.DataFrame, object_name: str) -> PosedHands:
+def posed_hands(published: pd.DataFrame, object_name: str, hand: Hand) -> PosedHands:
     """The hands of one object in a table of `published.read_published`, fingertips coupled."""
     known = published.hand_configuration.notna() & (published.object == object_name)
     rows = published[known]
-    hand = configuration.unpack(np.stack(rows.hand_configuration.tolist()))
+    posed = configuration.unpack(np.stack(rows.hand_configuration.tolist()))
     held = (rows.grasp_type != "Invalid").to_numpy(dtype=bool)
-    poses = RigidTransform(hand.T_object_hand, normalize=False)
-    return PosedHands(object_name, poses, kinematics.couple(hand.dofs_rad), held)
+    poses = RigidTransform(posed.T_object_hand, normalize=False)
+    return PosedHands(object_name, hand, poses, hand.couple(posed.dofs), held)

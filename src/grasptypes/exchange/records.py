@@ -1,4 +1,4 @@
-"""What all exchange formats share: a hand's pose relative to an object and its joint angles.
+"""What all exchange formats share: a hand's pose relative to an object and its joint positions.
 
 Quaternions here and in the formats are w, x, y, z.
 """
@@ -11,6 +11,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.spatial.transform import RigidTransform, Rotation
 
+from grasptypes.hands.hand import Hand
+
 Array = NDArray[np.float64]
 
 
@@ -18,10 +20,11 @@ class PosedHands(NamedTuple):
     """n grasps of one object."""
 
     object_name: str
+    hand: Hand
     T_object_hand: RigidTransform
-    """n palm frames of `hand.kinematics` in the object frame, metres."""
-    joint_angles_rad: Array
-    """(n, 8) in the order of `kinematics.JOINT_NAMES`."""
+    """n hand frames in the object frame, metres."""
+    joint_positions: Array
+    """(n, J) in the order of `Hand.joints`; rad, prismatic joints m."""
     held: NDArray[np.bool_]
     """(n,) whether the grasp passed its test."""
 
@@ -46,10 +49,14 @@ def from_position_quaternion(numbers: ArrayLike) -> RigidTransform:
 
 
 def relative(
-    object_name: str, T_world: tuple[RigidTransform, RigidTransform], angles: Array, held: bool
+    object_name: str,
+    hand: Hand,
+    T_world: tuple[RigidTransform, RigidTransform],
+    positions: Array,
+    held: bool,
 ) -> PosedHands:
-    """A single grasp, given object and hand in the world and the joint angles (8,)."""
+    """A single grasp, given object and hand in the world and the joint positions (J,)."""
     T_world_object, T_world_hand = T_world
     T_object_hand = T_world_object.inv() * T_world_hand
     poses = RigidTransform(T_object_hand.as_matrix()[None], normalize=False)
-    return PosedHands(object_name, poses, angles[None], np.array([held]))
+    return PosedHands(object_name, hand, poses, positions[None], np.array([held]))

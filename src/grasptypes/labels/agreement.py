@@ -13,8 +13,9 @@ from scipy.optimize import minimize
 from scipy.special import expit
 from sklearn.metrics import cohen_kappa_score, confusion_matrix
 
-from grasptypes.hand import configuration, kinematics
-from grasptypes.hand.states import HandStates
+from grasptypes.hands import configuration
+from grasptypes.hands.hand import Hand
+from grasptypes.hands.states import HandStates
 from grasptypes.labels.contacts import DistanceField
 from grasptypes.labels.grasp_type import (
     INVALID,
@@ -65,12 +66,16 @@ class LabelledGrasps(NamedTuple):
 
 
 def measure_published(
-    published: pd.DataFrame, fields: Mapping[str, DistanceField], settings: ContactSettings
+    published: pd.DataFrame,
+    hand: Hand,
+    fields: Mapping[str, DistanceField],
+    settings: ContactSettings,
 ) -> LabelledGrasps:
     """Measure the published grasps with a human label and a configuration.
 
     Args:
         published: the table of `published.read_published`.
+        hand: the hand of its poses.
         fields: distances to the objects, in the frame of the published poses; other objects are
             skipped.
     """
@@ -78,8 +83,8 @@ def measure_published(
     chosen = published[known & published.object.isin(list(fields))]
     parts = []
     for name, rows in chosen.groupby("object", sort=True):
-        hand = configuration.unpack(np.stack(rows.hand_configuration.tolist()))
-        states = HandStates(hand.T_object_hand, kinematics.couple(hand.dofs_rad))
+        posed = configuration.unpack(np.stack(rows.hand_configuration.tolist()))
+        states = HandStates(hand, posed.T_object_hand, hand.couple(posed.dofs))
         parts.append(np.stack(measure(fields[str(name)], states, settings)))
     ordered = chosen.sort_values("object", kind="stable")
     labels = np.array([TYPES.index(name) for name in ordered.grasp_type], dtype=np.int64)

@@ -19,17 +19,13 @@ import numpy as np
 import trimesh
 from numpy.typing import ArrayLike, NDArray
 
-from grasptypes.hand import kinematics, shapes
-from grasptypes.hand.states import HandStates
+from grasptypes.hands.hand import Hand
+from grasptypes.hands.states import HandStates
+from grasptypes.hands.surface import surface_points
 from grasptypes.settings.grasp_types import ContactSettings
 
 Array = NDArray[np.float64]
 
-PALM = kinematics.LINK_NAMES.index("palm")
-FINGER_LINKS = tuple(
-    i for i, name in enumerate(kinematics.LINK_NAMES) if name.startswith(("proximal", "distal"))
-)
-DISTAL_LINKS = tuple(i for i, name in enumerate(kinematics.LINK_NAMES) if name.startswith("distal"))
 # Closer than this, the step to the nearest point is too short to define a direction.
 TOUCH_M = 1e-3
 
@@ -83,47 +79,52 @@ def _face_normals(vertices: Array, faces: NDArray[np.int64]) -> Array:
 
 
 class Contacts(NamedTuple):
-    """The contact of each link in `kinematics.LINK_NAMES`; n poses, hand frame, metres."""
+    """The contact of each of L links in the order of `Hand.links`; n poses, hand frame, metres."""
 
     gap_m: Array
-    """(n, 9) signed distance between link and object, negative if they overlap."""
+    """(n, L) signed distance between link and object, negative if they overlap."""
     position_m: Array
-    """(n, 9, 3) centre of the object's points next to the link."""
+    """(n, L, 3) centre of the object's points next to the link."""
     normal: Array
-    """(n, 9, 3) mean outward unit normals there."""
+    """(n, L, 3) mean outward unit normals there."""
     push: Array
-    """(n, 9, 3) unit vectors in which the links push the object."""
+    """(n, L, 3) unit vectors in which the links push the object."""
     weight: Array
-    """(n, 9) how much a link counts as pushing, 0 to 1."""
+    """(n, L) how much a link counts as pushing, 0 to 1."""
 
 
 def find_contacts(field: DistanceField, hands: HandStates, settings: ContactSettings) -> Contacts:
     """Measure the contacts of n hands posed at an object whose signed distance is known."""
-    T_object_hand, T_hand_link = hands.T_object_hand, kinematics.link_poses(hands.joint_angles_rad)
-    surface = shapes.surface_points(settings.surface_spacing_m)
+    hand, T_object_hand = hands.hand, hands.T_object_hand
+    T_hand_link = hand.link_poses(hands.joint_positions)
+    surface = surface_points(hand, settings.surface_spacing_m)
     on_hand = _apply(T_hand_link[:, surface.link_index], surface.points_m)
     distance, outward = field.distance_and_gradient(_apply(T_object_hand[:, None], on_hand))
     outward = np.einsum("nji,npj->npi", T_object_hand[:, :3, :3], outward)
     on_object = on_hand - distance[..., None] * outward
-    gap, share = _patches(distance, surface.link_index, settings.patch_depth_m)
+    gap, share = _patches(len(hand.links), distance, surface.link_index, settings.patch_depth_m)
     position, normal = share @ on_object, unit(share @ outward)
-    push = unit(settings.closing_weight * closing_directions(T_hand_link, position) - normal)
+    push = unit(settings.closing_weight * closing_directions(hand, T_hand_link, position) - normal)
     weight = np.clip(1.0 - gap / settings.reach_m, 0.0, 1.0)
     return Contacts(gap, position, normal, push, weight)
 
 
-def closing_directions(T_hand_link: Array, position_m: Array) -> Array:
-    """Unit vectors (n, 9, 3) in which points (n, 9, 3) on the links move as the fingers close.
+def closing_directions(hand: Hand, T_hand_link: Array, position_m: Array) -> Array:
+    """Unit vectors (n, L, 3) in which points (n, L, 3) on the links move as the fingers close.
 
-    Zero for the palm and the knuckles. A fingertip turns about the base of its finger like the link
-    before it, because the motor drives both; for a finger whose base has been stopped, this is how
-    it got there, not how it would continue.
+    Zero for links that do not close. All links of a finger move with its first joint, because the
+    motor drives them together; for a finger whose base has been stopped, this is how it got there,
+    not how it would continue.
     """
     directions = np.zeros_like(position_m)
-    for link in FINGER_LINKS:
-        finger = kinematics.LINK_NAMES[link][-1]
-        base = T_hand_link[:, kinematics.LINK_NAMES.index(f"proximal_{finger}")]
-        directions[:, link] = np.cross(base[:, :3, 2], position_m[:, link] - base[:, :3, 3])
+    for finger in hand.fingers:
+        base = T_hand_link[:, finger.links[0]]
+        for link in finger.links:
+            if hand.joints[finger.joints[0]].prismatic:
+                directions[:, link] = base[:, :3, 2]
+            else:
+                away = position_m[:, link] - base[:, :3, 3]
+                directions[:, link] = np.cross(base[:, :3, 2], away)
     return unit(directions)
 
 
@@ -133,12 +134,13 @@ def unit(vectors: Array) -> Array:
     return np.asarray(np.divide(vectors, length, out=np.zeros_like(vectors), where=length > 0))
 
 
-def _patches(distance: Array, link_index: NDArray[np.int64], depth_m: float) -> tuple[Array, Array]:
-    """Each link's gap (n, 9) and the weights of the hand's points in its contact (n, 9, p).
+def _patches(
+    links: int, distance: Array, link_index: NDArray[np.int64], depth_m: float
+) -> tuple[Array, Array]:
+    """Each link's gap (n, L) and the weights of the hand's points in its contact (n, L, p).
 
     A single nearest point would jump between the edges of a link, depending on the sampling.
     """
-    links = len(kinematics.LINK_NAMES)
     gap = np.empty((len(distance), links))
     share = np.zeros((len(distance), links, distance.shape[1]))
     for link in range(links):

@@ -10,12 +10,14 @@ import pandas as pd
 import pandera.pandas as pa
 
 from grasptypes.exchange.published_csv import authors_columns
-from grasptypes.hand import configuration, kinematics
-from grasptypes.hand.states import HandStates
+from grasptypes.hands import configuration
+from grasptypes.hands.configuration import POSE_LENGTH
+from grasptypes.hands.hand import Hand
+from grasptypes.hands.states import HandStates
 from grasptypes.labels.contacts import DistanceField
 from grasptypes.labels.grasp_type import GRASP_TYPES, INVALID, TYPES, explain, measure
 from grasptypes.labels.samples import COUNTS, samples_from_counts
-from grasptypes.settings.grasp_types import ContactSettings, Thresholds
+from grasptypes.settings.grasp_types import LabellingRule
 
 VALID = "valid"
 _MEASURES = {
@@ -24,57 +26,69 @@ _MEASURES = {
     "sideways_share": "sideways_share",
     "span_m": "span_m",
 }
-JOINT_COLUMNS = tuple(f"{name}_rad" for name in kinematics.JOINT_NAMES)
 
-DATASET_SCHEMA = pa.DataFrameSchema(
-    {
-        "Index": pa.Column(int, pa.Check.ge(0), unique=True),
-        "Object": pa.Column(str),
-        "Intent": pa.Column(str),
-        "Session": pa.Column(int, pa.Check.ge(1)),
-        "GraspType": pa.Column(str, pa.Check.isin(GRASP_TYPES)),
-        "GraspTypeIndex": pa.Column(int, pa.Check.in_range(1, len(GRASP_TYPES))),
-        "Rank": pa.Column(int, pa.Check.ge(1)),
-        "Error": pa.Column(float),
-        "PoseIndex": pa.Column(int, pa.Check.ge(0)),
-        "HandConfiguration": pa.Column(str, pa.Check(lambda cells: cells.str.count(",") == 16)),
-        "Image": pa.Column(str),
-        "reason": pa.Column(str, description="'valid', or why the grasp is invalid"),
-        "shape": pa.Column(str, pa.Check.isin(TYPES), description="type by the rule"),
-        "branch": pa.Column(str, description="the way through the tree"),
-        "margin": pa.Column(float, pa.Check.ge(0), description="to the nearest threshold"),
-        "virtual_fingers": pa.Column(int, pa.Check.isin([2, 3])),
-        **{name: pa.Column(float) for name in _MEASURES.values()},
-        "penetration_m": pa.Column(float, pa.Check.ge(0)),
-        "tries": pa.Column(int, pa.Check.ge(1)),
-        **{
-            name: pa.Column(float, pa.Check.in_range(low - 1e-6, high + 1e-6))
-            for name, (low, high) in zip(JOINT_COLUMNS, kinematics.JOINT_LIMITS_RAD, strict=True)
+
+def joint_columns(hand: Hand) -> list[str]:
+    """Columns of the hand's joint positions."""
+    return [f"{joint.name}_{'m' if joint.prismatic else 'rad'}" for joint in hand.joints]
+
+
+def dataset_schema(hand: Hand) -> pa.DataFrameSchema:
+    """Schema of the dataset of a hand's grasps."""
+    commas = POSE_LENGTH + len(hand.dof_names) - 1
+    limits = zip(joint_columns(hand), hand.joint_limits, strict=True)
+    return pa.DataFrameSchema(
+        {
+            "Index": pa.Column(int, pa.Check.ge(0), unique=True),
+            "Object": pa.Column(str),
+            "Intent": pa.Column(str),
+            "Session": pa.Column(int, pa.Check.ge(1)),
+            "GraspType": pa.Column(str, pa.Check.isin(GRASP_TYPES)),
+            "GraspTypeIndex": pa.Column(int, pa.Check.in_range(1, len(GRASP_TYPES))),
+            "Rank": pa.Column(int, pa.Check.ge(1)),
+            "Error": pa.Column(float),
+            "PoseIndex": pa.Column(int, pa.Check.ge(0)),
+            "HandConfiguration": pa.Column(
+                str, pa.Check(lambda cells: cells.str.count(",") == commas)
+            ),
+            "Image": pa.Column(str),
+            "reason": pa.Column(str, description="'valid', or why the grasp is invalid"),
+            "shape": pa.Column(str, pa.Check.isin(TYPES), description="type by the rule"),
+            "branch": pa.Column(str, description="the way through the tree"),
+            "margin": pa.Column(float, pa.Check.ge(0), description="to the nearest threshold"),
+            "virtual_fingers": pa.Column(int, pa.Check.isin([2, 3])),
+            **{name: pa.Column(float) for name in _MEASURES.values()},
+            "penetration_m": pa.Column(float, pa.Check.ge(0)),
+            "tries": pa.Column(int, pa.Check.ge(1)),
+            **{
+                name: pa.Column(float, pa.Check.in_range(low - 1e-6, high + 1e-6))
+                for name, (low, high) in limits
+            },
         },
-    },
-    strict=True,
-    ordered=True,
-    unique=["Object", "Intent", "Session"],
-)
+        strict=True,
+        ordered=True,
+        unique=["Object", "Intent", "Session"],
+    )
 
 
 def label_grasps(
-    grasps: pd.DataFrame, field: DistanceField, contacts: ContactSettings, thresholds: Thresholds
+    grasps: pd.DataFrame, hand: Hand, field: DistanceField, rule: LabellingRule
 ) -> pd.DataFrame:
     """Label the grasps of one object.
 
     Args:
         grasps: of `grasps.GRASP_SCHEMA`, one object.
+        hand: the hand of the grasps.
         field: distance to the object.
 
     Returns:
         `grasps` with the columns grasp_type (Invalid unless valid), shape (the type regardless of
         physics), branch, margin, virtual_fingers and the measures.
     """
-    hand = configuration.unpack(np.stack(grasps.hand_configuration.tolist()))
-    angles = np.stack(grasps.joint_angles_rad.tolist()).astype(np.float64)
-    measures = measure(field, HandStates(hand.T_object_hand, angles), contacts)
-    labels = pd.DataFrame(explain(measures, thresholds), index=grasps.index)
+    poses = configuration.unpack(np.stack(grasps.hand_configuration.tolist())).T_object_hand
+    positions = np.stack(grasps.joint_angles_rad.tolist()).astype(np.float64)
+    measures = measure(field, HandStates(hand, poses, positions), rule.contacts)
+    labels = pd.DataFrame(explain(measures, rule.thresholds_of(hand)), index=grasps.index)
     labels = labels.rename(columns={"grasp_type": "shape"})
     labels.insert(0, "grasp_type", labels["shape"].where(grasps.valid, INVALID))
     for name, column in _MEASURES.items():
@@ -82,8 +96,8 @@ def label_grasps(
     return pd.concat([grasps, labels], axis=1)
 
 
-def dataset_table(labelled: Sequence[pd.DataFrame]) -> pd.DataFrame:
-    """All labelled grasps in the authors' columns and ours: a table of `DATASET_SCHEMA`.
+def dataset_table(labelled: Sequence[pd.DataFrame], hand: Hand) -> pd.DataFrame:
+    """All labelled grasps in the authors' columns and ours: a table of `dataset_schema`.
 
     Sorted by object, task and session. `PoseIndex` is the position of the grasp among those tried
     in its session, and `Image` the path of the screenshot below data/.
@@ -93,16 +107,16 @@ def dataset_table(labelled: Sequence[pd.DataFrame]) -> pd.DataFrame:
     table["pose_index"] = table["rank"]
     keys = table[["object", "session", "task"]].itertuples(index=False)
     table["image"] = [image_name(*key) for key in keys]
-    return dataset_columns(table)
+    return dataset_columns(table, hand)
 
 
-def dataset_columns(table: pd.DataFrame) -> pd.DataFrame:
+def dataset_columns(table: pd.DataFrame, hand: Hand) -> pd.DataFrame:
     """Labelled grasps in the authors' columns and ours, in the given order.
 
     Args:
         table: of `label_grasps`, with the columns pose_index and image.
     """
-    angles = np.stack(table.joint_angles_rad.tolist()).astype(np.float64)
+    positions = np.stack(table.joint_angles_rad.tolist()).astype(np.float64)
     ours = pd.DataFrame(
         {
             "reason": table.reason.where(~table.valid, VALID),
@@ -110,7 +124,7 @@ def dataset_columns(table: pd.DataFrame) -> pd.DataFrame:
             **{name: table[name] for name in _MEASURES.values()},
             "penetration_m": table.penetration_m,
             "tries": table.tries,
-            **dict(zip(JOINT_COLUMNS, angles.T, strict=True)),
+            **dict(zip(joint_columns(hand), positions.T, strict=True)),
         }
     )
     return pd.concat([authors_columns(table, GRASP_TYPES), ours.round(9)], axis=1)

@@ -9,8 +9,9 @@ import pandas as pd
 from numpy.typing import NDArray
 from scipy.spatial.transform import RigidTransform
 
-from grasptypes.hand import configuration
-from grasptypes.hand.states import HandStates
+from grasptypes.hands import configuration
+from grasptypes.hands.hand import Hand
+from grasptypes.hands.states import HandStates
 from grasptypes.labels.dataset import VALID
 from grasptypes.labels.grasp_type import Label, explain, measure
 from grasptypes.objects.object_geometry import ObjectGeometry
@@ -27,8 +28,9 @@ class Grasp:
     Attributes:
         object: the object.
         task: the task.
-        T_object_hand: the palm's frame of `hand.kinematics` in the object's, metres.
-        joint_angles_rad: (8,) in the order of `kinematics.JOINT_NAMES`.
+        hand: the hand that holds it.
+        T_object_hand: the hand's frame in the object's, metres.
+        joint_positions: (J,) in the order of `Hand.joints`; rad, prismatic joints m.
         grasp_type: one of `GRASP_TYPES`; `Invalid` if the physics test rejects the grasp.
         reason: `valid`, or why the physics test rejects it.
         energy: energy of the search; lower is better.
@@ -36,23 +38,25 @@ class Grasp:
 
     object: ObjectGeometry
     task: str
+    hand: Hand
     T_object_hand: RigidTransform
-    joint_angles_rad: Array
+    joint_positions: Array
     grasp_type: str
     reason: str
     energy: float
 
 
-def grasps_of(table: pd.DataFrame, geometry: ObjectGeometry) -> list[Grasp]:
+def grasps_of(table: pd.DataFrame, geometry: ObjectGeometry, hand: Hand) -> list[Grasp]:
     """The grasps of one object in a table of `dataset.label_grasps`, in order."""
     return [
         Grasp(
             object=geometry,
             task=row.task,
+            hand=hand,
             T_object_hand=RigidTransform(
                 configuration.unpack(row.hand_configuration).T_object_hand, normalize=False
             ),
-            joint_angles_rad=np.array(row.joint_angles_rad, dtype=np.float64),
+            joint_positions=np.array(row.joint_angles_rad, dtype=np.float64),
             grasp_type=row.grasp_type,
             reason=VALID if row.valid else row.reason,
             energy=float(row.energy),
@@ -71,6 +75,7 @@ def label(grasp: Grasp, settings: GraspTypeSettings | None = None) -> Label:
         InputError: there are neither settings nor a params.yaml.
     """
     rule = settings or read_params("params.yaml").grasp_types
-    hand = HandStates(grasp.T_object_hand.as_matrix()[None], grasp.joint_angles_rad[None])
-    measures = measure(grasp.object.distance_grid, hand, rule.contacts)
-    return explain(measures, rule.thresholds)[0]
+    poses, positions = grasp.T_object_hand.as_matrix()[None], grasp.joint_positions[None]
+    states = HandStates(grasp.hand, poses, positions)
+    measures = measure(grasp.object.distance_grid, states, rule.contacts)
+    return explain(measures, rule.thresholds_of(grasp.hand))[0]

@@ -19,17 +19,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from grasptypes.hand import kinematics
-from grasptypes.hand.parts import DISTAL_HUB_RADIUS_M
-from grasptypes.hand.states import HandStates
-from grasptypes.labels.contacts import (
-    DISTAL_LINKS,
-    FINGER_LINKS,
-    PALM,
-    Contacts,
-    DistanceField,
-    find_contacts,
-)
+from grasptypes.hands.hand import PALM, Hand
+from grasptypes.hands.states import HandStates
+from grasptypes.labels.contacts import Contacts, DistanceField, find_contacts
 from grasptypes.settings.grasp_types import ContactSettings, Softness, Thresholds
 
 Array = NDArray[np.float64]
@@ -118,47 +110,62 @@ def measure(field: DistanceField, hands: HandStates, settings: ContactSettings) 
     contacts = find_contacts(field, hands, settings)
     return Measures(
         contacts.gap_m[:, PALM],
-        np.median(enclosed_diameters(hands.joint_angles_rad), axis=1),
-        sideways_share(contacts),
-        fingertip_span(contacts),
+        np.median(enclosed_diameters(hands.hand, hands.joint_positions), axis=1),
+        sideways_share(hands.hand, contacts),
+        fingertip_span(hands.hand, contacts),
     )
 
 
-def enclosed_diameters(joint_angles_rad: ArrayLike) -> Array:
-    """Diameters (n, 3), metres, of the circle that each finger encloses with the palm.
+def enclosed_diameters(hand: Hand, joint_positions: ArrayLike) -> Array:
+    """Diameters (n, F), metres, of the circle that each finger encloses with the palm.
 
-    The circle touches the palm plane and the centre lines of both links, minus half the thickness
-    of the links; 0 if nothing is left. With the exterior angles a and b at the finger's two joints,
-    the tangents r tan(a/2) and r tan(b/2) add up to the length of the proximal link.
+    The circle touches the palm plane and the centre lines of the links, minus half the thickness of
+    the finger; 0 if nothing is left. With the exterior angles a, b, ... at the finger's joints, the
+    tangents r tan(a/2) and r tan(b/2) add up to the length of the link between them; with several
+    such links, the sums add up. A finger with a single joint encloses what fits between its tip and
+    the palm's axis on both sides.
 
     Args:
-        joint_angles_rad: (n, 8) in the order of `kinematics.JOINT_NAMES`.
+        joint_positions: (n, J) rad, prismatic joints m.
     """
-    angles = np.asarray(joint_angles_rad, dtype=np.float64)
-    base = angles[:, 2:5] + kinematics.PROXIMAL_REST_RAD
-    tip = angles[:, 5:8] + kinematics.DISTAL_REST_RAD
-    radius = kinematics.PROXIMAL_LENGTH_M / (np.tan(base / 2.0) + np.tan(tip / 2.0))
-    return np.asarray(np.maximum(2.0 * (radius - DISTAL_HUB_RADIUS_M), 0.0))
+    positions = np.asarray(joint_positions, dtype=np.float64)
+    diameters = np.empty((len(positions), len(hand.fingers)))
+    for column, finger in enumerate(hand.fingers):
+        if len(finger.joints) == 1:
+            tip = hand.fingertips(positions)[:, column]
+            radius = np.linalg.norm(tip[:, :2], axis=1)
+        else:
+            bends = positions[:, list(finger.joints)] + finger.bend_rad
+            tangents = np.tan(bends / 2.0)
+            lengths = [
+                float(np.linalg.norm(hand.joints[joint].T_parent_rest[:3, 3]))
+                for joint in finger.joints[1:]
+            ]
+            radius = sum(lengths) / (tangents[:, :-1] + tangents[:, 1:]).sum(axis=1)
+        diameters[:, column] = np.maximum(2.0 * (radius - finger.half_thickness_m), 0.0)
+    return diameters
 
 
-def sideways_share(contacts: Contacts) -> Array:
+def sideways_share(hand: Hand, contacts: Contacts) -> Array:
     """Share (n,) of the fingers' push along the palm's x axis, 0 to 1; 0 without contact.
 
-    At spread 0 the fingers oppose each other in planes of constant x, so this is the push across
+    Without spread the fingers oppose each other in planes of constant x, so this is the push across
     the plane of opposition: mean square of the push's x component, weighted by contact.
     """
-    links = list(FINGER_LINKS)
+    links = list(hand.finger_links)
     weight, sideways = contacts.weight[:, links], contacts.push[:, links, 0] ** 2
     total = weight.sum(axis=1)
     share = (weight * sideways).sum(axis=1)
     return np.asarray(np.divide(share, total, out=np.zeros_like(total), where=total > 0))
 
 
-def fingertip_span(contacts: Contacts) -> Array:
-    """Distance (n,), metres, from finger 3's contact to the farther one of fingers 1 and 2."""
-    first, second, third = (contacts.position_m[:, link] for link in DISTAL_LINKS)
-    spans = [np.linalg.norm(third - other, axis=1) for other in (first, second)]
-    return np.asarray(np.maximum(*spans))
+def fingertip_span(hand: Hand, contacts: Contacts) -> Array:
+    """Distance (n,), metres, from a thumb's contact to the farthest one of the other fingers."""
+    tips: dict[bool, list[Array]] = {True: [], False: []}
+    for finger in hand.fingers:
+        tips[finger.thumb].append(contacts.position_m[:, finger.links[-1]])
+    spans = [np.linalg.norm(thumb - tip, axis=1) for thumb in tips[True] for tip in tips[False]]
+    return np.asarray(np.max(spans, axis=0))
 
 
 def limits(settings: Thresholds | Softness) -> Array:

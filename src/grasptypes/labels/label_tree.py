@@ -29,7 +29,7 @@ def typical_grasps(dataset: pd.DataFrame) -> dict[str, pd.Series]:
     """For each grasp type that occurs, the valid grasp farthest from all thresholds on its path.
 
     Args:
-        dataset: of `dataset.DATASET_SCHEMA`.
+        dataset: of `dataset.dataset_schema`.
     """
     valid = dataset[dataset.reason == VALID]
     rows = valid.loc[valid.groupby("GraspType").margin.idxmax()]

@@ -10,13 +10,15 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from grasptypes.errors import InputError
-from grasptypes.hand import configuration
+from grasptypes.hands import configuration
 from grasptypes.labels.grasp_type import GRASP_TYPES
 
 TASKS = ("handoff", "use")
 
 # Published numbers have six digits; a pose further from a rigid one is not a rounding error.
 RIGID_TOLERANCE = 1e-3
+# A pose and four degrees of freedom: spread and three fingers.
+CONFIGURATION_LENGTH = configuration.POSE_LENGTH + 4
 # Beyond these a unit is wrong: published palms are within 0.2 m, their joints within half a turn.
 FARTHEST_PALM_M = 2.0
 LARGEST_ANGLE_RAD = 2 * np.pi
@@ -75,8 +77,8 @@ def parse_configuration(text: str) -> NDArray[np.float64] | None:
     if not text.strip():
         return None
     numbers = np.array([_number(cell) for cell in text.split(",")])
-    if len(numbers) != configuration.LENGTH:
-        raise ValueError(f"has {len(numbers)} numbers instead of {configuration.LENGTH}")
+    if len(numbers) != CONFIGURATION_LENGTH:
+        raise ValueError(f"has {len(numbers)} numbers instead of {CONFIGURATION_LENGTH}")
     if numbers[0] < 0 or numbers[0] % 1:
         raise ValueError(f"its rank index {numbers[0]} is not a non-negative integer")
     hand = configuration.unpack(numbers)
@@ -86,7 +88,7 @@ def parse_configuration(text: str) -> NDArray[np.float64] | None:
         raise ValueError("its 3x4 pose has no valid rotation (orthonormal, right-handed)")
     if np.abs(hand.T_object_hand[:3, 3]).max() > FARTHEST_PALM_M:
         raise ValueError(f"its palm is more than {FARTHEST_PALM_M:g} m away: give metres")
-    if np.abs(hand.dofs_rad).max() > LARGEST_ANGLE_RAD:
+    if np.abs(hand.dofs).max() > LARGEST_ANGLE_RAD:
         raise ValueError("its joints turn by more than 2 pi: give radians")
     return numbers
 
@@ -114,7 +116,7 @@ def read_published(path: str | Path) -> pd.DataFrame:
     Returns:
         One row per grasp in the order of the file, with the columns index, object, task, session,
         grasp_type, grasp_type_index, rank, energy, pose_index, hand_configuration and image.
-        A hand_configuration is an array (17,), see `hand.configuration`, or None if the cell
+        A hand_configuration is an array (17,), see `hands.configuration`, or None if the cell
         is blank. Its DOFs are spread, F1, F2, F3 of GraspIt!'s `Barrett`, and may exceed
         the real hand's limits.
 

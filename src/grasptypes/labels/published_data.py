@@ -9,6 +9,7 @@ import numpy as np
 import trimesh
 
 from grasptypes.errors import InputError
+from grasptypes.hands.hand import Hand
 from grasptypes.labels.agreement import LabelledGrasps, measure_published
 from grasptypes.labels.contacts import MeshDistance
 from grasptypes.labels.label_sources import PUBLISHED, published_path
@@ -39,12 +40,17 @@ def lacking_data(environment: Mapping[str, str]) -> str:
 
 
 def labelled_grasps(
-    environment: Mapping[str, str], own: str | Path, scale: float, settings: GraspTypeSettings
+    environment: Mapping[str, str],
+    hand: Hand,
+    own: str | Path,
+    scale: float,
+    settings: GraspTypeSettings,
 ) -> LabelledGrasps:
     """Measure all published poses that have a type, a configuration and an object.
 
     Args:
         environment: names the published table, by path or URL, and the folder of reference meshes.
+        hand: the hand of the published poses.
         own: folder of the objects prepared here, for those without a reference mesh.
         scale: of the reference meshes.
 
@@ -62,7 +68,7 @@ def labelled_grasps(
             fields[name] = MeshDistance.of(read_reference_mesh(scan, scale))
         elif prepared.exists():
             fields[name] = MeshDistance.of(own_mesh(prepared, settings.own_frames.get(name)))
-    return measure_published(published, fields, settings.contacts)
+    return measure_published(published, hand, fields, settings.contacts)
 
 
 def own_mesh(path: str | Path, frame: ModelFrame | None) -> trimesh.Trimesh:

@@ -21,8 +21,10 @@ import trimesh
 from numpy.typing import NDArray
 
 from grasptypes.errors import InputError, parsing
-from grasptypes.hand import configuration, kinematics, shapes
-from grasptypes.hand.states import HandStates
+from grasptypes.hands import configuration
+from grasptypes.hands.hand import Hand, beyond
+from grasptypes.hands.states import HandStates
+from grasptypes.hands.surface import depth_in_hand, surface_points
 from grasptypes.objects.distance_grid import signed_distance
 from grasptypes.settings.grasp_types import ReplaySettings
 
@@ -48,7 +50,7 @@ class HandFit(NamedTuple):
     """Distances between hands and an object, one row per pose."""
 
     link_distance_m: Array
-    """(n, 9) smallest signed distance of each link to the object, negative inside."""
+    """(n, L) smallest signed distance of each link to the object, negative inside."""
     depth_m: Array
     """(n,) depth of the object's corners in the hand, 0 or more."""
 
@@ -84,51 +86,51 @@ def read_reference_mesh(path: str | Path, scale: float) -> trimesh.Trimesh:
     return mesh
 
 
-def fit_hands(configurations: Array, mesh: trimesh.Trimesh, spacing_m: float) -> HandFit:
-    """Place the hand at configurations (n, 17) and measure its distance to the object.
+def fit_hands(
+    hand: Hand, configurations: Array, mesh: trimesh.Trimesh, spacing_m: float
+) -> HandFit:
+    """Place a hand at configurations (n, 13 + D) and measure its distance to the object.
 
     Fingertips are assumed to be coupled to their finger bases, since the poses contain no more.
     """
-    hand = configuration.unpack(configurations)
-    T_object_link = HandStates(hand.T_object_hand, kinematics.couple(hand.dofs_rad)).link_poses()
-    surface = shapes.surface_points(spacing_m)
+    posed = configuration.unpack(configurations)
+    states = HandStates(hand, posed.T_object_hand, hand.couple(posed.dofs))
+    T_object_link, surface = states.link_poses(), surface_points(hand, spacing_m)
     T_object_point = T_object_link[:, surface.link_index]
     points = np.einsum("npij,pj->npi", T_object_point[..., :3, :3], surface.points_m)
     points += T_object_point[..., :3, 3]
     distances = signed_distance(points.reshape(-1, 3), mesh.vertices, mesh.faces)
     distances = distances.reshape(len(points), -1)
-    starts = np.searchsorted(surface.link_index, np.arange(len(kinematics.LINK_NAMES)))
-    depths = [shapes.depth_in_hand(np.asarray(mesh.vertices), T) for T in T_object_link]
+    starts = np.searchsorted(surface.link_index, np.arange(len(hand.links)))
+    depths = [depth_in_hand(hand, np.asarray(mesh.vertices), T) for T in T_object_link]
     return HandFit(np.minimum.reduceat(distances, starts, axis=1), np.array(depths))
 
 
 def replay_object(
-    name: str, configurations: Array, mesh: trimesh.Trimesh, settings: ReplaySettings
+    name: str, hand: Hand, configurations: Array, mesh: trimesh.Trimesh, settings: ReplaySettings
 ) -> dict[str, str | int | float]:
-    """One row of the replay table: an object's published configurations (n, 17) on its mesh."""
-    fit = fit_hands(configurations, mesh, settings.surface_spacing_m)
-    beyond = kinematics.beyond_limits(
-        configuration.unpack(configurations).dofs_rad,
-        kinematics.DOF_LIMITS_RAD,
-        settings.limit_tolerance_rad,
-    )
+    """One row of the replay table: an object's published configurations on its mesh."""
+    fit = fit_hands(hand, configurations, mesh, settings.surface_spacing_m)
+    dofs = configuration.unpack(configurations).dofs
+    exceeding = beyond(dofs, hand.dof_limits, settings.limit_tolerance_rad)
     return {
         "object": name,
         "n": len(configurations),
         "gap_median_mm": round(float(np.median(fit.gap_m)) * MM, 3),
         "gap_p90_mm": round(float(np.percentile(fit.gap_m, 90)) * MM, 3),
         "penetration_median_mm": round(float(np.median(fit.penetration_m)) * MM, 3),
-        "beyond_limits": int(beyond.any(axis=1).sum()),
+        "beyond_limits": int(exceeding.any(axis=1).sum()),
     }
 
 
 def replay(
-    published: pd.DataFrame, meshes: dict[str, Path], settings: ReplaySettings
+    published: pd.DataFrame, hand: Hand, meshes: dict[str, Path], settings: ReplaySettings
 ) -> pd.DataFrame:
     """Replay all published poses with a configuration, for the objects with a mesh.
 
     Args:
         published: the table of `published.read_published`.
+        hand: the hand of its poses.
         meshes: the reference mesh of each object to replay.
 
     Returns:
@@ -143,5 +145,5 @@ def replay(
         if name in meshes:
             mesh = read_reference_mesh(meshes[name], settings.object_scale)
             numbers = np.stack(poses.hand_configuration.tolist())
-            rows.append(replay_object(str(name), numbers, mesh, settings))
+            rows.append(replay_object(str(name), hand, numbers, mesh, settings))
     return pd.DataFrame(rows, columns=list(REPLAY_SCHEMA.columns))

@@ -15,14 +15,15 @@ from grasptypes.exchange import dexgraspbench, graspit_world, multigrippergrasp
 from grasptypes.exchange.published_csv import format_configuration
 from grasptypes.exchange.records import PosedHands
 from grasptypes.files import staging_name, write_bytes, write_json
-from grasptypes.hand import configuration
-from grasptypes.labels.dataset import DATASET_SCHEMA, VALID, dataset_columns
+from grasptypes.hands import configuration
+from grasptypes.hands.hand import Hand
+from grasptypes.labels.dataset import VALID, dataset_columns, dataset_schema
 from grasptypes.labels.grasp_type import GRASP_TYPES
 from grasptypes.objects.object_files import COLLISION, PROPERTIES, VISUAL
 from grasptypes.planning.plan_summary import summarise
 from grasptypes.planning.planner import Plan
 from grasptypes.renders.contact_pictures import plain
-from grasptypes.renders.gallery import grasp_picture, pose_of
+from grasptypes.renders.gallery import grasp_picture, state_of
 from grasptypes.renders.renderer import Camera, png_bytes
 from grasptypes.renders.scene import load_parts
 from grasptypes.reports.sheets import Group, Tile, sheet
@@ -43,7 +44,7 @@ ATTEMPT_TABLE_SCHEMA = pa.DataFrameSchema(
         "penetration_m": pa.Column(float, pa.Check.ge(0)),
         "moved_m": pa.Column(float, pa.Check.ge(0)),
         "turned_rad": pa.Column(float, pa.Check.ge(0)),
-        "hand_configuration": pa.Column(str, description="17 numbers"),
+        "hand_configuration": pa.Column(str, description="see hands.configuration"),
     },
     strict=True,
     ordered=True,
@@ -69,46 +70,51 @@ def _write_files(plan: Plan, folder: Path) -> None:
     valid = plan.ranking[plan.ranking.valid]
     pictured = plan.ranking.valid & (np.arange(len(plan.ranking)) < shown)
     table = plan.ranking.assign(image=np.where(pictured, PICTURE, ""))
-    write_table(dataset_columns(table), folder / "grasps.csv", DATASET_SCHEMA)
+    hand = plan.hand
+    write_table(dataset_columns(table, hand), folder / "grasps.csv", dataset_schema(hand))
     write_table(_attempt_table(plan.attempts), folder / "attempts.csv", ATTEMPT_TABLE_SCHEMA)
     (folder / "object").mkdir()
     for name in (VISUAL, COLLISION, PROPERTIES):
         shutil.copyfile(plan.geometry.folder / name, folder / "object" / name)
     if len(valid):
-        write_formats(posed(valid), folder)
-        picture = draw_best(valid.head(shown), plan.geometry.visual, plan.params)
+        write_formats(posed(valid, hand), folder)
+        picture = draw_best(valid.head(shown), hand, plan.geometry.visual, plan.params)
         write_bytes(folder / PICTURE, picture)
     write_json(folder / "plan.json", summarise(plan))
 
 
-def posed(grasps: pd.DataFrame) -> PosedHands:
+def posed(grasps: pd.DataFrame, hand: Hand) -> PosedHands:
     """Grasps of one object for the exchange formats."""
     numbers = np.stack(grasps.hand_configuration.tolist())
-    angles = np.stack(grasps.joint_angles_rad.tolist()).astype(np.float64)
+    positions = np.stack(grasps.joint_angles_rad.tolist()).astype(np.float64)
     poses = RigidTransform(configuration.unpack(numbers).T_object_hand, normalize=False)
-    return PosedHands(str(grasps.object.iloc[0]), poses, angles, grasps.valid.to_numpy())
+    return PosedHands(str(grasps.object.iloc[0]), hand, poses, positions, grasps.valid.to_numpy())
 
 
 def write_formats(hands: PosedHands, folder: Path) -> None:
-    """GraspIt! worlds, MultiGripperGrasp JSON and DexGraspBench npy, numbered by rank from 1."""
+    """GraspIt! worlds, MultiGripperGrasp JSON and DexGraspBench npy, numbered by rank from 1.
+
+    There are no worlds of a hand that GraspIt! does not know.
+    """
     multigrippergrasp.write_grasps(folder / "multigrippergrasp.json", hands)
     for index in range(len(hands.held)):
         file = f"grasp_{index + 1:02}"
         body = f"models/objects/{hands.object_name}.xml"
-        graspit_world.write_world(folder / "graspit" / f"{file}.xml", hands, index, body)
+        if hands.hand.exchange.graspit_robot is not None:
+            graspit_world.write_world(folder / "graspit" / f"{file}.xml", hands, index, body)
         dexgraspbench.write_grasp(
             folder / "dexgraspbench" / f"{file}.npy", hands, index, 1.0, "object"
         )
 
 
-def draw_best(grasps: pd.DataFrame, visual: Path, params: Params) -> bytes:
+def draw_best(grasps: pd.DataFrame, hand: Hand, visual: Path, params: Params) -> bytes:
     """PNG of the grasps, each with its rank, type and energy."""
     settings = params.gallery
     studio = plain(params.renders, settings.size_px)
     parts, tiles = load_parts(visual), []
     with Camera(studio) as camera:
         for _, row in grasps.iterrows():
-            picture = grasp_picture(parts, *pose_of(row), camera, settings.elevation_rad)
+            picture = grasp_picture(parts, state_of(hand, row), camera, settings.elevation_rad)
             caption = f"{row['rank'] + 1}: {row.grasp_type}, energy {row.energy:.2f}"
             tiles.append(Tile(picture, caption))
     columns = min(len(tiles), settings.columns // 2)

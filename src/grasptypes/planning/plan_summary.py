@@ -16,6 +16,7 @@ def summarise(plan: Plan) -> dict[str, Any]:
     return {
         "object": properties.object,
         "task": plan.task,
+        "hand": plan.hand.title,
         "mass_kg": properties.mass_kg,
         "repairs": properties.repairs,
         "wanted_types": list(types),
@@ -51,7 +52,7 @@ def report(summary: Mapping[str, Any]) -> str:
     chosen = f"chosen by {by['model']}, {by['labels']} labels" if by else "as asked"
     types, held = ", ".join(summary["wanted_types"]), summary["valid_of_wanted_type"]
     lines = [
-        f"{summary['object']} for {summary['task']}: {types} ({chosen})",
+        f"{summary['object']} for {summary['task']}, {summary['hand']}: {types} ({chosen})",
         f"{summary['valid']} of {summary['sessions']} grasps are valid, "
         f"{held} of a requested type; {summary['tries']} tries",
         "",

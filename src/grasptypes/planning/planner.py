@@ -11,6 +11,8 @@ import pandas as pd
 
 from grasptypes.contact_maps.contact_map import MapTask
 from grasptypes.errors import InputError
+from grasptypes.hands.hand import Hand
+from grasptypes.hands.reading import load_hand
 from grasptypes.labels.grasp import Grasp, grasps_of
 from grasptypes.labels.grasp_type import GRASP_TYPES
 from grasptypes.objects.object_geometry import ObjectGeometry
@@ -21,8 +23,6 @@ from grasptypes.settings.params import Params, checkout_params
 
 if TYPE_CHECKING:
     from grasptypes.predictors.prediction import Predictor
-
-URDF = "assets/barrett_hand/barrett_hand.urdf"
 
 
 class GraspTypeRequest(NamedTuple):
@@ -38,6 +38,7 @@ class Plan:
     """Planned grasps for one object and task.
 
     Attributes:
+        hand: the hand that grasps.
         params: parameters of the plan.
         contact_map: name of the measured map, if any.
         attempts: one row per grasp tried, labelled: columns of `grasps.ATTEMPT_SCHEMA` and
@@ -48,6 +49,7 @@ class Plan:
     geometry: ObjectGeometry
     task: str
     request: GraspTypeRequest
+    hand: Hand
     params: Params
     contact_map: str | None
     attempts: pd.DataFrame
@@ -56,7 +58,7 @@ class Plan:
     @property
     def grasps(self) -> list[Grasp]:
         """One grasp per session, best first; those that failed the physics test come last."""
-        return grasps_of(self.ranking, self.geometry)
+        return grasps_of(self.ranking, self.geometry, self.hand)
 
     def write(self, folder: str | Path) -> None:
         """Write tables, `plan.json`, exchange formats and an image to a new folder.
@@ -75,23 +77,27 @@ class Planner:
     """Plans grasps of any object.
 
     Args:
-        folder: checkout with the parameters, hand and models.
+        folder: checkout with the parameters and models.
+        hand: a hand that comes with the package, or a folder with one; default: that of the
+            parameters.
         jobs: number of processes; the result does not depend on it.
         tell: called with progress messages.
 
     Raises:
-        InputError: the folder has no valid parameters.
+        InputError: the folder has no valid parameters, or the hand is unknown or wrong.
     """
 
     def __init__(
         self,
         folder: str | Path = ".",
         *,
+        hand: str | Path | None = None,
         jobs: int = 1,
         tell: Callable[[str], None] = lambda line: None,
     ) -> None:
         self.folder = Path(folder)
         self.params = checkout_params(self.folder)
+        self.hand = load_hand(hand) if hand else load_hand(self.params.hand, self.folder)
         self.jobs = jobs
         self.tell = tell
         self._predictor: Predictor | None = None
@@ -131,10 +137,10 @@ class Planner:
                 "no place has opposing sides for them"
             )
         self.tell(f"searching for {', '.join(request.types)} grasps of {object.name} for {task}")
-        context = PlanningContext(object, task, MESH_WORD, self.folder / URDF, self.params)
+        context = PlanningContext(object, task, MESH_WORD, self.hand.folder, self.params)
         attempts, ranking = plan_sessions(context, contacts, request.types, self.jobs, self.tell)
         used = contact_map.path.name if contact_map else None
-        return Plan(object, task, request, self.params, used, attempts, ranking)
+        return Plan(object, task, request, self.hand, self.params, used, attempts, ranking)
 
     def check_request(
         self, task: str, types: Sequence[str], mass_kg: float | None, source: str = ""

@@ -13,6 +13,7 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
+from grasptypes.hands.reading import load_hand
 from grasptypes.labels.dataset import label_grasps
 from grasptypes.objects.object_geometry import ObjectGeometry
 from grasptypes.planning.plan_contacts import PlanContacts
@@ -27,13 +28,13 @@ class PlanningContext:
 
     Attributes:
         word: name of the object in the keys of all random draws.
-        urdf: URDF of the hand.
+        hand: name or folder of the hand.
     """
 
     geometry: ObjectGeometry
     task: str
     word: str
-    urdf: Path
+    hand: str | Path
     params: Params
 
 
@@ -60,7 +61,8 @@ def plan_sessions(
         tell(f"session {number} of {last} ({grip}): {outcome}")
     table = pd.concat(found, ignore_index=True)
     grid, settings = context.geometry.distance_grid, context.params.grasp_types
-    labelled = choose(label_grasps(table, grid, settings.contacts, settings.thresholds), types)
+    hand = load_hand(context.hand)
+    labelled = choose(label_grasps(table, hand, grid, settings), types)
     return labelled, ranked(labelled[labelled.chosen], types)
 
 
@@ -122,6 +124,6 @@ def _search(context: PlanningContext, contacts: PlanContacts, index: int) -> pd.
     session_seed = seed("plan", context.word, context.task, number, params.seed)
     held = contacts.contact_map.session(index)
     task = SynthesisTask(context.word, context.task, context.geometry, held, session_seed)
-    _, attempts = synthesize(task, context.urdf, params.synthesis, params.physics)
+    _, attempts = synthesize(task, load_hand(context.hand), params.synthesis, params.physics)
     added = {"grip": str(held.grip[0]), "tries": len(attempts)}
     return attempts.assign(object=context.geometry.name, session=number, **added)

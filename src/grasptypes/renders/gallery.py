@@ -9,10 +9,11 @@ from typing import Any
 import numpy as np
 import pandas as pd
 import trimesh
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
-from grasptypes.hand import configuration, kinematics
-from grasptypes.hand.visuals import MATERIALS, Visual, link_visuals
+from grasptypes.hands import configuration
+from grasptypes.hands.hand import Hand, Visual
+from grasptypes.hands.states import HandStates
 from grasptypes.renders.contact_pictures import look_at
 from grasptypes.renders.gallery_views import best_azimuth, finger_points
 from grasptypes.renders.renderer import Camera
@@ -24,35 +25,30 @@ Array = NDArray[np.float64]
 # Reflectance of the hand's materials; their colours are those of the hand model.
 METALLIC = {"aluminium": 0.6}
 ROUGHNESS = {"anodised": 0.45, "aluminium": 0.4, "rubber": 0.9}
+PLASTIC_ROUGHNESS = 0.6
 # Edges sharper than this are shaded as edges.
 CREASE_RAD = 0.6
 # Points that represent an object's surface: 5 per cell on the largest object, the pan.
 OBJECT_POINTS = 6000
 
 
-def hand_parts(T_object_hand: ArrayLike, joint_angles_rad: ArrayLike) -> list[Part]:
-    """The visible parts of the hand, posed in the object frame.
-
-    Args:
-        T_object_hand: (4, 4) metres.
-        joint_angles_rad: (8,) in the order of `kinematics.JOINT_NAMES`.
-    """
-    poses = np.asarray(T_object_hand) @ kinematics.link_poses(joint_angles_rad)
+def hand_parts(state: HandStates) -> list[Part]:
+    """The visible parts of one hand, posed in the object frame."""
     return [
         replace(
             part,
             vertices=part.vertices @ pose[:3, :3].T + pose[:3, 3],
             normals=part.normals @ pose[:3, :3].T,
         )
-        for pose, link in zip(poses, _link_parts(), strict=True)
+        for pose, link in zip(state.link_poses()[0], _link_parts(state.hand), strict=True)
         for part in link
     ]
 
 
 @cache
-def _link_parts() -> tuple[tuple[Part, ...], ...]:
+def _link_parts(hand: Hand) -> tuple[tuple[Part, ...], ...]:
     """The parts of each link in its frame, with smooth shading between edges."""
-    return tuple(tuple(_part(visual) for visual in link) for link in link_visuals())
+    return tuple(tuple(_part(visual) for visual in link.visuals) for link in hand.links)
 
 
 def _part(visual: Visual) -> Part:
@@ -62,23 +58,19 @@ def _part(visual: Visual) -> Part:
         vertices=np.asarray(mesh.vertices),
         normals=np.asarray(mesh.vertex_normals),
         faces=np.asarray(mesh.faces),
-        base_colour=np.array(MATERIALS[visual.material][:3]),
+        base_colour=np.array(visual.rgba[:3]),
         metallic=METALLIC.get(visual.material, 0.0),
-        roughness=ROUGHNESS[visual.material],
+        roughness=ROUGHNESS.get(visual.material, PLASTIC_ROUGHNESS),
     )
 
 
 def grasp_picture(
-    thing: list[Part],
-    T_object_hand: Array,
-    joint_angles_rad: ArrayLike,
-    camera: Camera,
-    elevation_rad: float,
+    thing: list[Part], state: HandStates, camera: Camera, elevation_rad: float
 ) -> NDArray[np.uint8]:
     """Image (size, size, 3) of a grasp, from where object and fingers are seen best."""
-    parts = [*thing, *hand_parts(T_object_hand, joint_angles_rad)]
+    parts = [*thing, *hand_parts(state)]
     outside = surface_points(thing, OBJECT_POINTS, rng("gallery"))
-    hand = finger_points(T_object_hand, joint_angles_rad)
+    hand = finger_points(state)
     azimuth_rad = best_azimuth(outside, *hand, elevation_rad)
     scene, node, _ = camera.scene(parts)
     points = np.concatenate([part.vertices for part in parts])
@@ -93,7 +85,8 @@ def best_grasp(grasps: pd.DataFrame) -> Any | None:
     return None if valid.empty else valid.loc[valid.energy.idxmin()]
 
 
-def pose_of(row: Any) -> tuple[Array, Array]:
-    """T_object_hand (4, 4) and joint angles (8,) of a row of grasps or attempts."""
-    hand = configuration.unpack(np.asarray(row.hand_configuration, dtype=np.float64))
-    return hand.T_object_hand, np.asarray(row.joint_angles_rad, dtype=np.float64)
+def state_of(hand: Hand, row: Any) -> HandStates:
+    """The hand, as one state, of a row of grasps or attempts."""
+    posed = configuration.unpack(np.asarray(row.hand_configuration, dtype=np.float64))
+    positions = np.asarray(row.joint_angles_rad, dtype=np.float64)
+    return HandStates(hand, posed.T_object_hand[None], positions[None])

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
-from grasptypes.hand import kinematics
-from grasptypes.hand.shapes import surface_points
+from grasptypes.hands.states import HandStates
+from grasptypes.hands.surface import surface_points
 
 Array = NDArray[np.float64]
 
@@ -16,19 +16,12 @@ AZIMUTHS = 24
 SPACING_M, CELL_M = 0.006, 0.010
 
 
-def finger_points(T_object_hand: ArrayLike, joint_angles_rad: ArrayLike) -> tuple[Array, Array]:
-    """Points (n, 3) on the fingers and (m, 3) on the rest of the hand, in the object's frame.
-
-    Args:
-        T_object_hand: (4, 4) metres.
-        joint_angles_rad: (8,) in the order of `kinematics.JOINT_NAMES`.
-    """
-    hand = surface_points(SPACING_M)
-    poses = np.asarray(T_object_hand) @ kinematics.link_poses(joint_angles_rad)
-    own = poses[hand.link_index]
-    points = np.einsum("nij,nj->ni", own[:, :3, :3], hand.points_m) + own[:, :3, 3]
-    first_finger = len(kinematics.LINK_NAMES) - 6
-    on_finger = hand.link_index >= first_finger
+def finger_points(state: HandStates) -> tuple[Array, Array]:
+    """Points (n, 3) on the fingers and (m, 3) on the rest of one hand, in the object's frame."""
+    surface = surface_points(state.hand, SPACING_M)
+    own = state.link_poses()[0, surface.link_index]
+    points = np.einsum("nij,nj->ni", own[:, :3, :3], surface.points_m) + own[:, :3, 3]
+    on_finger = np.isin(surface.link_index, state.hand.finger_links)
     return points[on_finger], points[~on_finger]
 
 

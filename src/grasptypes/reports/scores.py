@@ -35,7 +35,7 @@ def grasp_scores(dataset: pd.DataFrame, distribution: pd.DataFrame | None) -> Ma
     """Number of valid grasps, and similarity of their type counts to the published ones.
 
     Args:
-        dataset: of `dataset.DATASET_SCHEMA`.
+        dataset: of `dataset.dataset_schema`.
         distribution: of `distribution.DISTRIBUTION_SCHEMA`, with the mean in the last row; None if
             no object has published counts, in which case there is no similarity.
     """

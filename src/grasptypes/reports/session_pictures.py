@@ -33,7 +33,7 @@ def session_groups(
     """One group per task, with the images in the order of the sessions.
 
     Args:
-        rows: of `dataset.DATASET_SCHEMA`, of one object.
+        rows: of `dataset.dataset_schema`, of one object.
         pictures: of `read_named_pictures`.
     """
     return [_group(rows[rows.Intent == task], pictures, task) for task in tasks]

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 from pydantic import Field
 
 from grasptypes.settings.base import Name, Settings, Triple, Unique, setting
+
+if TYPE_CHECKING:
+    from grasptypes.hands.hand import Hand
 
 Unit = Annotated[float, Field(ge=-1, le=1)]
 Width = Annotated[float, Field(gt=0, le=10, description="natural logarithm of the measure")]
@@ -38,6 +41,23 @@ class Thresholds(Settings):
     large_span_m: float = setting("fingertip span above which a wrap is large", gt=0, le=0.3)
 
 
+class LabellingRule(Settings):
+    """The rule that labels a grasp: measures of its contacts, and the tree's thresholds."""
+
+    contacts: ContactSettings
+    thresholds: Thresholds
+    finger_length_m: float = setting(
+        "length of the fingers of the hand on whose grasps the thresholds were fitted", gt=0, le=1
+    )
+
+    def thresholds_of(self, hand: Hand) -> Thresholds:
+        """The thresholds for a hand: lengths grow with its fingers, shares do not."""
+        ratio = hand.finger_length_m / self.finger_length_m
+        lengths = ("palm_gap_m", "small_diameter_m", "large_span_m")
+        scaled = {name: getattr(self.thresholds, name) * ratio for name in lengths}
+        return self.thresholds.changed(**scaled)
+
+
 class Softness(Settings):
     """Widths over which a label counts in part while fitting, in natural logarithms."""
 
@@ -54,11 +74,9 @@ class ModelFrame(Settings):
     shift_m: Triple[Unit] = setting("after placing the model on the ground")
 
 
-class GraspTypeSettings(Settings):
-    """The rule that labels a grasp."""
+class GraspTypeSettings(LabellingRule):
+    """The rule, and how it was fitted."""
 
-    contacts: ContactSettings
-    thresholds: Thresholds
     fitted_on: Unique[str] = setting("objects whose published labels the thresholds were fitted on")
     softness: Softness
     own_frames: dict[Name, ModelFrame] = setting(
@@ -69,6 +87,7 @@ class GraspTypeSettings(Settings):
 class PublishedSettings(Settings):
     """The authors' table of grasps."""
 
+    hand: str = setting("the hand of the authors' grasps", min_length=1)
     timeout_s: float = setting("how long to wait for an unreachable host", gt=0, le=60)
 
 

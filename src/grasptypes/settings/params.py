@@ -42,6 +42,9 @@ class Params(Settings):
     tasks: dict[Annotated[Name, AfterValidator(_is_a_task)], TaskSettings] = setting(
         "what the object is grasped for, in the order of task vectors", min_length=1
     )
+    hand: str = setting(
+        "a hand that comes with the package, or a folder with a hand of your own", min_length=1
+    )
     objects: ObjectSettings
     contact_maps: ContactMapSettings
     published: PublishedSettings

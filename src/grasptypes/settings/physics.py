@@ -16,7 +16,7 @@ class ValiditySettings(Settings):
     )
     limit_tolerance_rad: float = setting("how far a joint may exceed its limit", ge=0, le=0.2)
     lag_tolerance_rad: float = setting(
-        "how far a fingertip may be behind a third of its finger's angle", ge=0, le=0.2
+        "how far a joint may be behind the motion of its coupled finger", ge=0, le=0.2
     )
 
 
@@ -28,17 +28,6 @@ class PhysicsSettings(Settings):
     friction: float = setting("Coulomb coefficient between hand and object", ge=0, le=5)
     gravity_m_s2: float = setting("acceleration of gravity", ge=0, le=100)
     control_steps: int = setting("time steps between commands to the motors", ge=1, le=100)
-    fingertip_force_n: float = setting(
-        "force at the fingertip up to which motors close, newtons; the hand has 15", gt=0, le=15
-    )
-    passive_force_n: float = setting(
-        "force at the fingertip that stopped fingers withstand, newtons; the hand has 20",
-        gt=0,
-        le=20,
-    )
-    closing_speed_rad_s: float = setting(
-        "speed of the closing fingers, rad/s; the hand has 2.44", gt=0, le=2.45
-    )
     gear_correction: float = setting(
         "share of a coupled fingertip's lag that is corrected per time step", gt=0, le=10
     )

@@ -6,9 +6,7 @@ from typing import Annotated
 
 from pydantic import Field
 
-from grasptypes.settings.base import Many, Pair, Settings, Share, Weight, setting
-
-Bound = Annotated[float, Field(ge=-1, le=1)]
+from grasptypes.settings.base import Many, Settings, Share, Weight, setting
 
 
 class HandSampling(Settings):
@@ -17,46 +15,13 @@ class HandSampling(Settings):
     finger_spacing_m: float = setting(
         "distance between points on the fingers during the search", ge=0.002, le=0.02
     )
-    base_spacing_m: float = setting("the same on palm and knuckles", ge=0.002, le=0.03)
+    base_spacing_m: float = setting(
+        "the same on the palm and on links that do not close", ge=0.002, le=0.03
+    )
     check_spacing_m: float = setting(
         "distance between points of the final check", ge=0.002, le=0.02
     )
     grid_spacing_m: float = setting("spacing of the links' distance grids", ge=0.001, le=0.01)
-
-
-class ShapeRanges(Settings):
-    """Ranges of the measures of a hand's shape for a grip; minimum and maximum of each."""
-
-    palm_gap_m: Pair[Bound] = setting("gap between palm and object")
-    enclosed_diameter_m: Pair[Bound] = setting("diameter of the circle in the fingers")
-    sideways_share: Pair[Bound] = setting("share of the push along the palm's x axis")
-
-
-class Grip(Settings):
-    """How this hand performs a grip of the affinity table."""
-
-    spreads_rad: Many[Annotated[float, Field(ge=0, le=3.1416)]] = setting(
-        "spreads to choose from", min_length=1
-    )
-    palm_distances_m: Many[Annotated[float, Field(ge=0, le=0.2)]] = setting(
-        "from the palm to the target point", min_length=1
-    )
-    shape: ShapeRanges
-
-
-class Grips(Settings):
-    """The grips of the affinity table."""
-
-    wrap: Grip
-    enclose: Grip
-    tripod: Grip
-    pinch: Grip
-    rim: Grip
-
-    def named(self, name: str) -> Grip:
-        """The grip of this name."""
-        grip: Grip = getattr(self, name)
-        return grip
 
 
 class CandidateSettings(Settings):
@@ -67,11 +32,9 @@ class CandidateSettings(Settings):
     position_sd_m: float = setting("standard deviation of the target point", ge=0, le=0.1)
     tilt_sd_rad: float = setting("standard deviation of approach and roll", ge=0, le=1.6)
     rolls: int = setting("evenly spaced rolls of candidates that do not follow", ge=1, le=360)
-    start_m: float = setting("distance in front of the object at which hands start", ge=0.1, le=2)
     back_offs_m: Many[Annotated[float, Field(ge=0, le=0.2)]] = setting(
         "how far hands back off after touching", min_length=1
     )
-    grips: Grips
 
 
 class ClosingSettings(Settings):
@@ -88,7 +51,7 @@ class EnergySettings(Settings):
     repulsion_points: int = setting("maximum number of repelling points", ge=0, le=10000)
     attraction_weight: Weight = setting("per metre between hand and an attracting point")
     repulsion_weight: Weight = setting("per metre between hand and a repelling point")
-    thumb_weight: Weight = setting("per metre between finger 3 and the nearest attracting point")
+    thumb_weight: Weight = setting("per metre between the thumb and the nearest attracting point")
     penetration_weight: Weight = setting("per metre of penetration of the object")
     self_collision_weight: Weight = setting("per metre of penetration between links")
     range_m: float = setting("distance above which terms are constant", gt=0, le=0.02)
@@ -126,7 +89,7 @@ class RefinementSettings(Settings):
     children: int = setting("variations of each per round", ge=1, le=1000)
     position_sd_m: float = setting("standard deviation in the first round", ge=0, le=0.1)
     rotation_sd_rad: float = setting("standard deviation in the first round", ge=0, le=1.6)
-    spread_sd_rad: float = setting("standard deviation in the first round", ge=0, le=1.6)
+    preshape_sd_rad: float = setting("standard deviation in the first round", ge=0, le=1.6)
     shrink: float = setting("factor on the deviations from round to round", gt=0, le=1)
 
 
@@ -134,7 +97,7 @@ class RankingSettings(Settings):
     """Which grasps are tried."""
 
     tries: int = setting("maximum number of grasps tried per session", ge=1, le=100)
-    min_fingers: int = setting("number of fingers that must touch", ge=1, le=3)
+    min_fingers: int = setting("number of fingers that must touch", ge=1, le=5)
     contact_m: float = setting("gap below which a link touches", gt=0, le=0.01)
     max_depth_m: float = setting(
         "penetration depth above which a candidate is not ranked", ge=0, le=0.05

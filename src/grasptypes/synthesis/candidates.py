@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from grasptypes.hand.states import HandStates
+from grasptypes.hands.states import HandStates
 from grasptypes.settings.synthesis import CandidateSettings
 from grasptypes.synthesis.closing import close_fingers, slide_in
 from grasptypes.synthesis.scene import GraspScene
@@ -53,20 +53,21 @@ def draw_candidates(
     count = settings.number
     followers = draw.random(count) < settings.follow_share
     aim, approach, side = _aims(demonstration, followers, settings, draw)
-    grip = settings.grips.named(demonstration.grip)
-    spread = draw.choice(grip.spreads_rad, count)
+    grips = scene.hand.grips
+    grip = grips.named(demonstration.grip)
+    preshape = np.array(grip.preshapes)[draw.choice(len(grip.preshapes), count)]
     distance = draw.choice(grip.palm_distances_m, count)
     T = np.zeros((count, 4, 4))
     T[:, :3, :3] = frames(approach, side)
     foremost = (demonstration.points_m @ approach.T).min(axis=0)
-    start = np.einsum("ni,ni->n", aim, approach) - foremost + settings.start_m
+    start = np.einsum("ni,ni->n", aim, approach) - foremost + grips.start_m
     T[:, :3, 3] = aim - start[:, None] * approach
     T[:, 3, 3] = 1.0
-    moved = slide_in(scene, T, spread, start - distance, touch_m)
+    moved = slide_in(scene, T, preshape, start - distance, touch_m)
     touched = moved < start - distance - touch_m
     moved -= touched * draw.choice(settings.back_offs_m, count)
     T[:, :3, 3] += moved[:, None] * approach
-    return HandStates(T, close_fingers(scene, T, spread, touch_m))
+    return close_fingers(scene, T, preshape, touch_m)
 
 
 def frames(approach: Array, side: Array) -> Array:

@@ -10,64 +10,69 @@ import numpy as np
 from numpy.typing import NDArray
 
 from grasptypes.compiled import compiled
-from grasptypes.hand import kinematics
+from grasptypes.hands.hand import Hand
+from grasptypes.hands.states import HandStates
 from grasptypes.synthesis.fields import Field, distance
-from grasptypes.synthesis.hand_model import FIRST_DISTAL, FIRST_PROXIMAL, HandModel
+from grasptypes.synthesis.hand_model import HandModel
 from grasptypes.synthesis.scene import GraspScene
 
 Array = NDArray[np.float64]
 
 MAX_STEPS = 60
-_FINGERS = 3
 
 
 def slide_in(
-    scene: GraspScene, T_object_hand: Array, spread_rad: Array, reach_m: Array, touch_m: float
+    scene: GraspScene, T_object_hand: Array, preshape: Array, reach_m: Array, touch_m: float
 ) -> Array:
     """Move open hands along their approach (+z) until they touch or have moved `reach_m`.
 
     Args:
         T_object_hand: (n, 4, 4) hands in the object frame, clear of the object.
-        spread_rad: (n,) spread of the fingers.
+        preshape: (n, P) preshapes of the fingers.
         reach_m: (n,) maximum distance of each.
         touch_m: distance between surfaces at which a link stops.
 
     Returns:
         (n,) distance moved, metres.
     """
-    angles = np.zeros((len(spread_rad), len(kinematics.JOINT_NAMES)))
-    angles[:, :2] = spread_rad[:, None]
-    poses = T_object_hand[:, None] @ kinematics.link_poses(angles)
+    poses = open_hands(scene.hand, T_object_hand, preshape).link_poses()
     approach = np.ascontiguousarray(T_object_hand[:, :3, 2])
-    return _slide(scene.hand, scene.field, poses, approach, reach_m, touch_m)
+    return _slide(scene.model, scene.field, poses, approach, reach_m, touch_m)
 
 
 def close_fingers(
-    scene: GraspScene, T_object_hand: Array, spread_rad: Array, touch_m: float
-) -> Array:
+    scene: GraspScene, T_object_hand: Array, preshape: Array, touch_m: float
+) -> HandStates:
     """Close each finger until it touches, like the real hand.
 
-    Finger base and fingertip turn together, three to one. If the proximal link is stopped first,
-    the TorqueSwitch lets the fingertip go on alone until it touches or reaches its limit.
+    The joints of a finger move at the rates of its description. If a link is stopped, it and those
+    before it stay, and the others go on at their own rates until the last one touches or reaches
+    its limit.
 
     Args:
         T_object_hand: (n, 4, 4) hands in the object's frame.
-        spread_rad: (n,).
+        preshape: (n, P).
         touch_m: distance between surfaces at which a link stops.
 
     Returns:
-        (n, 8) joint angles in the order of `kinematics.JOINT_NAMES`, within their limits.
+        Hands with joint positions within their limits.
     """
-    angles = np.zeros((len(spread_rad), len(kinematics.JOINT_NAMES)))
-    angles[:, :2] = spread_rad[:, None]
-    proximal = slice(FIRST_PROXIMAL, FIRST_PROXIMAL + _FINGERS)
-    T_object_rest = T_object_hand[:, None] @ kinematics.link_poses(angles)[:, proximal]
-    T_proximal_distal = kinematics.JOINTS[-1].T_parent_rest
-    limits = kinematics.JOINT_LIMITS_RAD[[2, 5], 1]
-    angles[:, 2:] = _close(
-        scene.hand, scene.field, T_object_rest, T_proximal_distal, limits, touch_m
-    )
-    return angles
+    hand = scene.hand
+    positions = hand.preshaped(preshape)
+    first = [finger.links[0] for finger in hand.fingers]
+    T_object_rest = T_object_hand[:, None] @ hand.link_poses(positions)[:, first]
+    closed = _close(scene.model, scene.field, T_object_rest, touch_m)
+    for row, finger in enumerate(hand.fingers):
+        positions[:, list(finger.joints)] = closed[:, row, : len(finger.joints)]
+    return HandStates(hand, T_object_hand, positions)
+
+
+def open_hands(hand: Hand, T_object_hand: Array, preshape: Array) -> HandStates:
+    """Open hands at poses (n, 4, 4) with preshapes (n, P)."""
+    positions = hand.preshaped(preshape)
+    for finger in hand.fingers:
+        positions[:, list(finger.joints)] = finger.open
+    return HandStates(hand, T_object_hand, positions)
 
 
 @compiled()
@@ -117,86 +122,120 @@ def moved(pose: Array, points: Array, row: int) -> tuple[float, float, float]:
 
 
 @compiled(inline=True)
-def _turned(pose: Array, angle: float, result: Array) -> None:
-    """Rotate a pose (3+, 4) about its own z axis."""
-    c, s = np.cos(angle), np.sin(angle)
+def _moved_along(pose: Array, position: float, prismatic: bool, result: Array) -> None:
+    """Turn a pose (3+, 4) about its own z axis, or slide it along."""
+    c, s = np.cos(position), np.sin(position)
     for row in range(3):
-        result[row, 0] = c * pose[row, 0] + s * pose[row, 1]
-        result[row, 1] = c * pose[row, 1] - s * pose[row, 0]
-        result[row, 2] = pose[row, 2]
-        result[row, 3] = pose[row, 3]
+        result[row, 2], result[row, 3] = pose[row, 2], pose[row, 3]
+        if prismatic:
+            result[row, 0], result[row, 1] = pose[row, 0], pose[row, 1]
+            result[row, 3] += position * pose[row, 2]
+        else:
+            result[row, 0] = c * pose[row, 0] + s * pose[row, 1]
+            result[row, 1] = c * pose[row, 1] - s * pose[row, 0]
 
 
 @compiled()
-def _close(
-    model: HandModel, grid: Field, T_object_rest: Array, T_proximal_distal: Array,
-    limits: Array, touch_m: float,
-) -> Array:  # fmt: skip
-    fingers = T_object_rest.shape[1]
-    angles = np.zeros((len(T_object_rest), 2 * fingers))
+def _close(model: HandModel, grid: Field, T_object_rest: Array, touch_m: float) -> Array:
+    """Joint positions (n, F, M) of fingers whose first links rest at (n, F, 4, 4)."""
+    fingers, longest = model.chains.links.shape
+    positions = np.zeros((len(T_object_rest), fingers, longest))
+    poses, gaps = np.empty((longest, 3, 4)), np.empty(len(model.points))
     for n in range(len(T_object_rest)):
         for finger in range(fingers):
-            proximal, distal = _close_finger(
-                model, grid, finger, T_object_rest[n, finger], T_proximal_distal, limits, touch_m
-            )
-            angles[n, finger] = proximal
-            angles[n, fingers + finger] = distal
-    return angles
+            _close_finger(
+                model, grid, finger, T_object_rest[n, finger], touch_m, poses, gaps,
+                positions[n, finger],
+            )  # fmt: skip
+    return positions
 
 
 @compiled()
 def _close_finger(
-    model: HandModel, grid: Field, finger: int, T_object_rest: Array, T_proximal_distal: Array,
-    limits: Array, touch_m: float,
-) -> tuple[float, float]:  # fmt: skip
-    """Final angles of the two joints of a finger that starts open."""
-    proximal, distal = FIRST_PROXIMAL + finger, FIRST_DISTAL + finger
-    T_proximal, T_hinge, T_distal = np.empty((3, 4)), np.empty((3, 4)), np.empty((3, 4))
-    ratio, hinge_m = kinematics.DISTAL_RATIO, kinematics.PROXIMAL_LENGTH_M
-    own_levers = _levers(model, distal)
-    proximal_levers, distal_levers = _levers(model, proximal), hinge_m + (1 + ratio) * own_levers
-    _composed(T_object_rest, T_proximal_distal, T_distal)
-    proximal_gaps, distal_gaps = np.empty(len(proximal_levers)), np.empty(len(distal_levers))
-    proximal_gaps[:] = _least_gap(model, grid, proximal, T_object_rest)
-    distal_gaps[:] = _least_gap(model, grid, distal, T_distal)
-    angle, lead, released = 0.0, 0.0, False
-    for _ in range(MAX_STEPS):
-        _turned(T_object_rest, angle, T_proximal)
-        _composed(T_proximal, T_proximal_distal, T_hinge)
-        _turned(T_hinge, ratio * angle + lead, T_distal)
-        if released:
-            step = limits[1] - ratio * angle - lead
-            step = _free_turn(model, grid, distal, T_distal, own_levers, distal_gaps, step, touch_m)
+    model: HandModel, grid: Field, finger: int, T_object_rest: Array, touch_m: float,
+    poses: Array, gaps: Array, positions: Array,
+) -> None:  # fmt: skip
+    """Close one finger; `poses` (M, 3, 4) and `gaps` (n,) are overwritten, `positions` (M,) set."""
+    chains = model.chains
+    count, rates = chains.counts[finger], chains.rates[finger]
+    travel = np.zeros(count)  # of each stage, in units of its rates
+    stage = 0
+    for step_number in range(MAX_STEPS):
+        _set_positions(model, finger, travel, positions)
+        _set_poses(model, finger, T_object_rest, positions, poses)
+        if step_number == 0:
+            _bound_gaps(model, grid, finger, poses, gaps)
+        room = chains.limits[finger, stage, 1] - chains.open[finger, stage]
+        for done in range(stage + 1):
+            room -= rates[done, stage] * travel[done]
+        step, stopped = room / rates[stage, stage], -1
+        for place in range(stage, count):
+            step = _free_motion(
+                model, grid, finger, stage, place, poses[place], gaps, step, touch_m
+            )
             if step <= 0.0:
+                stopped = place
                 break
-            lead += step
-            distal_gaps -= step * own_levers
+        if stopped >= 0:
+            stage = stopped + 1
+            if stage == count:
+                break
             continue
-        step = _free_turn(
-            model, grid, proximal, T_proximal, proximal_levers, proximal_gaps,
-            limits[0] - angle, touch_m,
-        )  # fmt: skip
-        if step <= 0.0:
-            released = True
-            continue
-        step = _free_turn(model, grid, distal, T_distal, distal_levers, distal_gaps, step, touch_m)
-        if step <= 0.0:
-            break
-        angle += step
-        proximal_gaps -= step * proximal_levers
-        distal_gaps -= step * distal_levers
-    return angle, ratio * angle + lead
+        travel[stage] += step
+        _narrow_gaps(model, finger, stage, step, gaps)
+    _set_positions(model, finger, travel, positions)
 
 
 @compiled()
-def _levers(model: HandModel, link: int) -> Array:
-    """Distance of each of a link's points from its joint axis, its own z."""
-    points = model.points[model.starts[link] : model.starts[link + 1]]
-    return np.sqrt(points[:, 0] ** 2 + points[:, 1] ** 2)
+def _bound_gaps(model: HandModel, grid: Field, finger: int, poses: Array, gaps: Array) -> None:
+    """Start with one lower bound for all points of a link."""
+    for place in range(model.chains.counts[finger]):
+        link = model.chains.links[finger, place]
+        least = _least_gap(model, grid, link, poses[place])
+        gaps[model.starts[link] : model.starts[link + 1]] = least
 
 
 @compiled()
-def _composed(first: Array, second: Array, result: Array) -> None:
+def _narrow_gaps(model: HandModel, finger: int, stage: int, step: float, gaps: Array) -> None:
+    """Lower the bounds by what the points of the moving links may have moved."""
+    for place in range(stage, model.chains.counts[finger]):
+        link = model.chains.links[finger, place]
+        own = model.chains.own_levers[finger, stage, place]
+        base = model.chains.base_levers[finger, stage, place]
+        for m in range(model.starts[link], model.starts[link + 1]):
+            gaps[m] -= step * (base + own * model.levers[m])
+
+
+@compiled()
+def _set_positions(model: HandModel, finger: int, travel: Array, positions: Array) -> None:
+    """Joint positions after the travel of each stage; joints wait at their limits."""
+    chains = model.chains
+    for place in range(len(travel)):
+        position = 0.0
+        for stage in range(len(travel)):
+            position += chains.rates[finger, stage, place] * travel[stage]
+        position += chains.open[finger, place]
+        lower, upper = chains.limits[finger, place]
+        positions[place] = min(max(position, lower), upper)
+
+
+@compiled()
+def _set_poses(
+    model: HandModel, finger: int, T_object_rest: Array, positions: Array, poses: Array
+) -> None:
+    """Poses (M, 3, 4) of a finger's links at joint positions (M,)."""
+    chains, rest = model.chains, np.empty((3, 4))
+    for place in range(chains.counts[finger]):
+        prismatic = chains.prismatic[finger, place]
+        if place == 0:
+            _moved_along(T_object_rest, positions[0], prismatic, poses[0])
+            continue
+        _compose(poses[place - 1], chains.T_parent_rest[finger, place], rest)
+        _moved_along(rest, positions[place], prismatic, poses[place])
+
+
+@compiled()
+def _compose(first: Array, second: Array, result: Array) -> None:
     for row in range(3):
         for column in range(4):
             result[row, column] = first[row, 3] if column == 3 else 0.0
@@ -205,28 +244,32 @@ def _composed(first: Array, second: Array, result: Array) -> None:
 
 
 @compiled()
-def _free_turn(
-    model: HandModel, grid: Field, link: int, pose: Array, levers: Array, gaps: Array,
+def _free_motion(
+    model: HandModel, grid: Field, finger: int, stage: int, place: int, pose: Array, gaps: Array,
     step: float, touch_m: float,
 ) -> float:  # fmt: skip
-    """How far a link can turn before one of its points could touch.
+    """How far a finger can move before a point of one of its links could touch.
 
     Args:
-        levers: (m,) maximum motion of each point, metres per radian.
-        gaps: (m,) lower bounds on the distances of the points, updated lazily: a point is not
-            checked again before the link could have moved that far.
-        step: the largest result of interest, radians.
+        place: position of the link in its finger.
+        gaps: (n,) lower bounds on the distances of the hand's points, updated lazily: a point is
+            not checked again before the link could have moved that far.
+        step: the largest result of interest, in units of the stage's rates.
 
     Returns:
         at most `step`; 0 if the link touches.
     """
-    first = model.starts[link]
-    for m in range(len(levers)):
-        if gaps[m] > touch_m and gaps[m] >= step * levers[m]:
+    link = model.chains.links[finger, place]
+    own = model.chains.own_levers[finger, stage, place]
+    base = model.chains.base_levers[finger, stage, place]
+    for m in range(model.starts[link], model.starts[link + 1]):
+        lever = base + own * model.levers[m]
+        if gaps[m] > touch_m and gaps[m] >= step * lever:
             continue
-        x, y, z = moved(pose, model.points, first + m)
+        x, y, z = moved(pose, model.points, m)
         gaps[m] = distance(grid, x, y, z)
         if gaps[m] <= touch_m:
             return 0.0
-        step = min(step, gaps[m] / levers[m])
+        if lever > 0.0:
+            step = min(step, gaps[m] / lever)
     return step

@@ -13,13 +13,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from grasptypes.compiled import compiled
-from grasptypes.hand import kinematics
 from grasptypes.poses import inverse
 from grasptypes.settings.synthesis import EnergySettings
 from grasptypes.synthesis.candidates import Demonstration
 from grasptypes.synthesis.closing import moved
 from grasptypes.synthesis.fields import Field, distance, field_at, slope
-from grasptypes.synthesis.hand_model import FIRST_DISTAL, FIRST_PROXIMAL, PALM, HandModel
+from grasptypes.synthesis.hand_model import HandModel
 from grasptypes.synthesis.scene import GraspScene
 
 Array = NDArray[np.float64]
@@ -27,7 +26,6 @@ Array = NDArray[np.float64]
 TERMS = ("attraction", "repulsion", "thumb", "penetration", "self_collision")
 # Gaps beyond this are only bounded from below, since the distance of a remote link does not matter.
 FAR_M = 0.005
-_THUMB = len(kinematics.LINK_NAMES) - 1
 
 
 class Targets(NamedTuple):
@@ -45,7 +43,7 @@ class Closeness(NamedTuple):
     """Distances of the links of n hands to the object and to each other."""
 
     gaps_m: Array
-    """(n, 9) smallest signed distance of each link's points to the object, or a lower bound for a
+    """(n, L) smallest signed distance of each link's points to the object, or a lower bound for a
     remote link."""
     self_depth_m: Array
     """(n,) penetration depth between links of different fingers, or a finger and the palm."""
@@ -76,12 +74,12 @@ def draw_targets(
 
 
 def closeness(scene: GraspScene, link_poses: Array) -> Closeness:
-    """Distances of hands with links at (n, 9, 4, 4) in the object's frame."""
-    return Closeness(*_closeness(scene.hand, scene.field, link_poses))
+    """Distances of hands with links at (n, L, 4, 4) in the object's frame."""
+    return Closeness(*_closeness(scene.model, scene.field, link_poses))
 
 
 def energies(
-    hand: HandModel,
+    model: HandModel,
     link_poses: Array,
     close: Closeness,
     targets: Targets,
@@ -90,7 +88,7 @@ def energies(
     """The terms of each grasp's energy; their sum is the energy, lower is better.
 
     Args:
-        link_poses: (n, 9, 4, 4) links in the object frame.
+        link_poses: (n, L, 4, 4) links in the object frame.
         close: closeness of the same hands.
 
     Returns:
@@ -98,7 +96,7 @@ def energies(
     """
     terms = np.empty((len(link_poses), len(TERMS)))
     reach = settings.range_m, settings.repulsion_offset_m
-    contact = _contact_terms(hand, inverse(link_poses), targets, *reach)
+    contact = _contact_terms(model, inverse(link_poses), targets, *reach)
     count = len(targets.points)
     terms[:, 0] = settings.attraction_weight * contact[:, 0] / count
     terms[:, 1] = -settings.repulsion_weight * contact[:, 1] / count
@@ -123,7 +121,7 @@ def _contact_terms(
                 x, y, z = moved(T_link_object[n, candidate], points, m)
                 cx, cy, cz = model.centres[candidate]
                 # The thumb's term needs its distance even if another link is closer.
-                of_thumb = candidate == _THUMB and m < attracting
+                of_thumb = model.is_thumb[candidate] and m < attracting
                 bound = model.radii[candidate] + (max(nearest, thumb) if of_thumb else nearest)
                 if (x - cx) ** 2 + (y - cy) ** 2 + (z - cz) ** 2 > bound * bound:
                     continue
@@ -170,25 +168,9 @@ def _closeness(model: HandModel, grid: Field, poses: Array) -> tuple[Array, Arra
             for index in range(model.starts[link], model.starts[link + 1]):
                 x, y, z = moved(poses[n, link], model.points, index)
                 gaps[n, link] = min(gaps[n, link], distance(grid, x, y, z))
-        for link in range(FIRST_PROXIMAL, links):
-            for other in range(links):
-                if _may_collide(link, other):
-                    depth[n] = max(depth[n], _overlap(model, poses[n], link, other))
+        for link, other in model.pairs:
+            depth[n] = max(depth[n], _overlap(model, poses[n], link, other))
     return gaps, depth
-
-
-@compiled()
-def _may_collide(link: int, other: int) -> bool:
-    """Whether a finger link can collide with another link, not of its own finger or base.
-
-    For links of two fingers, only the first is checked against the second.
-    """
-    same_finger = (link - FIRST_PROXIMAL) % 3 == (other - FIRST_PROXIMAL) % 3
-    if other >= FIRST_PROXIMAL:
-        return link > other and not same_finger
-    if other == PALM:
-        return link >= FIRST_DISTAL
-    return (link - FIRST_PROXIMAL) % 3 != other - 1 or link >= FIRST_DISTAL
 
 
 @compiled()

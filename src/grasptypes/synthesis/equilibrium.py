@@ -29,13 +29,13 @@ def wrench_residual(scene: GraspScene, link_poses: Array, settings: EquilibriumS
     Torques are about the object's centre of mass and are converted to forces at its radius.
 
     Args:
-        link_poses: (n, 9, 4, 4) links in the object's frame.
+        link_poses: (n, L, 4, 4) links in the object's frame.
 
     Returns:
         (n,) newtons, an upper bound, 0 (balanced) to 1; 1 if nothing touches.
     """
     return _wrench_residuals(
-        *(scene.hand, scene.field, link_poses),
+        *(scene.model, scene.field, link_poses),
         *(scene.centre_of_mass_m, scene.radius_m),
         *(settings.friction, settings.cone_edges, settings.contact_m, settings.iterations),
     )

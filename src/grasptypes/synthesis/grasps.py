@@ -8,7 +8,7 @@ from __future__ import annotations
 import pandas as pd
 import pandera.pandas as pa
 
-from grasptypes.hand import configuration, kinematics
+from grasptypes.hands.configuration import POSE_LENGTH
 from grasptypes.synthesis.search import ALL_TERMS
 
 # Why a grasp is invalid, in the order of the checks; empty if it is valid.
@@ -16,8 +16,10 @@ REASONS = ("joint_limit", "self_collision", "penetrates", "no_contact", "dropped
 ENERGY_TERMS = tuple(f"energy_{term}" for term in ALL_TERMS)
 
 
-def _lengths(column: pd.Series, *counts: int) -> pd.Series:
-    return column.map(len).isin(counts)
+def _longer(column: pd.Series, length: int) -> pd.Series:
+    """Whether lists have more numbers than `length`, and all as many as the first one."""
+    lengths = column.map(len)
+    return (lengths > length) & (lengths == lengths.iloc[0] if len(lengths) else True)
 
 
 _TRIAL_COLUMNS = {
@@ -29,13 +31,13 @@ _TRIAL_COLUMNS = {
     **{term: pa.Column(float, description="part of the energy") for term in ENERGY_TERMS},
     "hand_configuration": pa.Column(
         object,
-        pa.Check(lambda column: _lengths(column, configuration.LENGTH)),
-        description="17 numbers, see hand.configuration; held in physics, or planned if not",
+        pa.Check(lambda column: _longer(column, POSE_LENGTH)),
+        description="see hands.configuration; held in physics, or planned if not",
     ),
     "joint_angles_rad": pa.Column(
         object,
-        pa.Check(lambda column: _lengths(column, len(kinematics.JOINT_NAMES))),
-        description="in the order of kinematics.JOINT_NAMES",
+        pa.Check(lambda column: _longer(column, 0)),
+        description="in the order of the hand's joints; prismatic ones m",
     ),
     "penetration_m": pa.Column(float, pa.Check.ge(0), description="hand and object in each other"),
     "moved_m": pa.Column(float, pa.Check.ge(0), description="object in the hand, under gravity"),

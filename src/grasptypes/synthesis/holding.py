@@ -7,22 +7,20 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from grasptypes.hand import kinematics
+from grasptypes.hands.hand import Finger, Hand
 from grasptypes.settings.physics import PhysicsSettings
 
 Array = NDArray[np.float64]
 
-# A joint this far behind its previous angle is being driven back: 0.1 mm at the fingertip.
-DRIVEN_BACK_RAD = 0.001
-# The joints of the three fingers in `kinematics.JOINT_NAMES`.
-BASES, TIPS = slice(2, 5), slice(5, 8)
+# A joint this far behind its previous position is being driven back: 0.1 mm at the fingertip.
+DRIVEN_BACK = 0.001
 
 
 class Contact(NamedTuple):
     """A point where a link presses on the object, in the object frame."""
 
     link: int
-    """Index into `kinematics.LINK_NAMES`."""
+    """Index into `Hand.links`."""
     point_m: Array
     """(3,)."""
     normal: Array
@@ -45,62 +43,84 @@ class HoldResult(NamedTuple):
     """Rotation of the object in the hand under gravity."""
     T_object_hand: Array
     """(4, 4) at the end of the last test."""
-    joint_angles_rad: Array
-    """(8,) at the end of the last test."""
+    joint_positions: Array
+    """(J,) at the end of the last test."""
     contacts: list[Contact]
     """At the end of the last test."""
 
 
 class Motors:
-    """The hand's motors: they close with a limited force and never let go.
+    """A hand's motors: they close with a limited force and never let go.
 
-    Worm gears keep joints from being driven back, up to the hand's passive force. One motor turns
-    base and tip of a finger, coupled three to one, until the base is stopped by a contact; then the
-    TorqueSwitch releases it and the tip goes on alone.
+    Joints withstand being driven back, up to the hand's passive force. In coupled hands, one motor
+    moves all joints of a finger at fixed rates until a link is stopped by a contact; then that
+    joint and those before it stay, and the others go on alone.
     """
 
-    def __init__(self, angles_rad: Array, settings: PhysicsSettings) -> None:
-        self.coupled: NDArray[np.bool_] = np.abs(kinematics.lag(angles_rad)) < DRIVEN_BACK_RAD
-        """(3,) fingers whose base and tip still turn together."""
-        self._settings = settings
+    def __init__(self, hand: Hand, positions: Array, settings: PhysicsSettings) -> None:
+        self.hand = hand
+        self.stages = [_stage(finger, hand.lag(positions)) for finger in hand.fingers]
+        """Number of stopped joints of each finger."""
         self._interval_s = settings.timestep_s * settings.control_steps
-        self._reached_rad = angles_rad.copy()
-        self._levers_m = _levers_m(angles_rad, self.coupled)
+        self._reached = positions.copy()
+        self._levers = self._tip_levers(positions)
 
-    def release(self, finger: int) -> None:
-        """From now on, the base of a finger (0 to 2) stays in place and the tip closes alone."""
-        self.coupled[finger] = False
-        self._levers_m = _levers_m(self._reached_rad, self.coupled)
+    def stop(self, finger: int, count: int) -> None:
+        """From now on, the first `count` joints of a finger stay in place."""
+        self.stages[finger] = count
+        self._levers = self._tip_levers(self._reached)
 
-    def drive(self, angles_rad: Array) -> tuple[Array, Array]:
-        """Motor commands at joint angles (8,): speeds (8,) rad/s and torque limits (8,) N m.
+    def drive(self, positions: Array) -> tuple[Array, Array]:
+        """Motor commands at joint positions (J,): speeds (J,) and torque limits (J,).
 
-        The tip of a coupled finger has no torque of its own.
+        Joints that follow another one of their finger have no torque of their own.
         """
-        ratio = kinematics.DISTAL_RATIO
-        tips = np.where(self.coupled, ratio, 1.0 + ratio)
-        speeds = self._settings.closing_speed_rad_s * np.concatenate([[0, 0], self.coupled, tips])
-        moves = np.arange(len(angles_rad)) >= BASES.start
-        moves[BASES] = self.coupled
-        self._reached_rad = np.where(
-            moves, np.maximum(self._reached_rad, angles_rad), self._reached_rad
-        )
-        stop = kinematics.JOINT_LIMITS_RAD[:, 1]
-        way = np.minimum(self._reached_rad, stop) - angles_rad
-        closing = np.minimum(speeds, (stop - angles_rad) / self._interval_s)
-        withstands = ~moves | (way > DRIVEN_BACK_RAD) | (angles_rad > stop)
-        withstands[BASES] |= ~self.coupled
-        force_n = np.where(
-            withstands, self._settings.passive_force_n, self._settings.fingertip_force_n
-        )
-        force_n[TIPS] = np.where(self.coupled, 0.0, force_n[TIPS])
-        return np.where(withstands, way / self._interval_s, closing), force_n * self._levers_m
+        hand, motors = self.hand, self.hand.motors
+        speeds, moves = np.zeros(len(positions)), np.zeros(len(positions), dtype=bool)
+        follows = np.zeros(len(positions), dtype=bool)
+        for finger, stage in zip(hand.fingers, self.stages, strict=True):
+            joints = list(finger.joints)
+            if stage == len(joints):
+                continue
+            # The motor keeps its speed: joints that go on alone turn faster.
+            whole, left = np.abs(finger.rates[[0, stage]]).sum(axis=1)
+            share = whole / left
+            speeds[joints] = motors.closing_speed_rad_s * (finger.rates[stage] * share)
+            moves[joints[stage:]] = True
+            follows[joints[stage + 1 :]] = not hand.direct
+        moves_on = np.where(speeds < 0.0, positions, np.maximum(self._reached, positions))
+        self._reached = np.where(moves, moves_on, self._reached)
+        stop = hand.joint_limits[:, 1]
+        way = np.minimum(self._reached, stop) - positions
+        closing = np.minimum(speeds, (stop - positions) / self._interval_s)
+        withstands = ~moves | (way > DRIVEN_BACK) | (positions > stop)
+        force_n = np.where(withstands, motors.passive_force_n, motors.fingertip_force_n)
+        force_n[follows] = 0.0
+        return np.where(withstands, way / self._interval_s, closing), force_n * self._levers
+
+    def _tip_levers(self, positions: Array) -> Array:
+        """(J,) motion of the fingertips per joint motion: m/rad, 1 if prismatic.
+
+        The joint of a preshape may carry several fingers: that with the largest motion counts.
+        """
+        hand = self.hand
+        poses, tips = hand.link_poses(positions), hand.fingertips(positions)
+        ways = np.zeros((len(hand.fingers), len(hand.joints), 3))
+        for finger, stage, tip, way in zip(hand.fingers, self.stages, tips, ways, strict=True):
+            for link in hand.path(finger):
+                axis, origin = poses[link, :3, 2], poses[link, :3, 3]
+                slides = hand.joints[link - 1].prismatic
+                way[link - 1] = axis if slides else np.cross(axis, tip - origin)
+            if hand.direct or stage == len(finger.joints):
+                continue
+            driver, *followers = finger.joints[stage:]
+            for place, joint in enumerate(followers, start=stage + 1):
+                ratio = finger.rates[stage, place] / finger.rates[stage, stage]
+                way[driver] += ratio * way[joint]
+        return np.asarray(np.linalg.norm(ways, axis=2).max(axis=0))
 
 
-def _levers_m(angles: Array, coupled: NDArray[np.bool_]) -> Array:
-    """(8,) motion of the fingertip per joint motion, metres per radian."""
-    poses = kinematics.link_poses(angles)[1:]
-    tips = kinematics.fingertips(angles)[[0, 1, 0, 1, 2, 0, 1, 2]]
-    ways = np.cross(poses[:, :3, 2], tips - poses[:, :3, 3])
-    ways[BASES] += kinematics.DISTAL_RATIO * coupled[:, None] * ways[TIPS]
-    return np.asarray(np.linalg.norm(ways, axis=1))
+def _stage(finger: Finger, lag: Array) -> int:
+    """Number of joints of a finger that have been stopped before its last joint that moved on."""
+    ahead = np.abs(lag[list(finger.joints)]) >= DRIVEN_BACK
+    return int(np.flatnonzero(ahead).max(initial=0))

@@ -10,17 +10,19 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 import numpy as np
 import pybullet
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
-from grasptypes.hand import kinematics
+from grasptypes.hands.hand import PALM, Hand
+from grasptypes.hands.urdf import write_urdf
 from grasptypes.objects.object_geometry import ObjectGeometry
 from grasptypes.poses import inverse
 from grasptypes.settings.physics import PhysicsSettings
-from grasptypes.synthesis.holding import BASES, TIPS, Contact, HoldResult, Motors
+from grasptypes.synthesis.holding import Contact, HoldResult, Motors
 
 Array = NDArray[np.float64]
 
@@ -35,28 +37,34 @@ class Physics:
     """A physics server that tests grasps of one object. Use `physics` to get one."""
 
     def __init__(
-        self, client: int, urdf: Path, geometry: ObjectGeometry, settings: PhysicsSettings
+        self,
+        client: int,
+        hand: Hand,
+        urdf: Path,
+        geometry: ObjectGeometry,
+        settings: PhysicsSettings,
     ) -> None:
         self._client = client
+        self._hand = hand
         self._urdf = urdf
         self._geometry = geometry
         self._settings = settings
         self._joints: list[int] = []
-        self._gears: dict[int, int] = {}
+        self._gears: dict[int, list[int]] = {}
         self.steps = 0
         """Number of time steps so far, for benchmarks."""
 
-    def hold(self, T_object_hand: Array, joint_angles_rad: Array) -> HoldResult:
+    def hold(self, T_object_hand: Array, joint_positions: Array) -> HoldResult:
         """Squeeze and hold the object; returns the result for the worst direction of gravity.
 
         Args:
             T_object_hand: (4, 4) hand in the object frame.
-            joint_angles_rad: (8,) angles at which the fingers touch.
+            joint_positions: (J,) at which the fingers touch.
         """
         directions = DIRECTIONS if self._settings.shake else DIRECTIONS[:1]
         worst: HoldResult | None = None
         for direction in directions:
-            held = self._hold_once(T_object_hand, joint_angles_rad, direction)
+            held = self._hold_once(T_object_hand, joint_positions, direction)
             if worst is None or (held.dropped, held.moved_m) > (worst.dropped, worst.moved_m):
                 worst = held
             if worst.dropped:
@@ -64,11 +72,13 @@ class Physics:
         assert worst is not None
         return worst
 
-    def _hold_once(self, T_object_hand: Array, angles: Array, direction: Array) -> HoldResult:
+    def _hold_once(self, T_object_hand: Array, positions: Array, direction: Array) -> HoldResult:
         settings, client = self._settings, self._client
-        hand, thing = self._load(T_object_hand, angles)
-        motors = Motors(angles, settings)
-        self._couple(hand, motors)
+        hand, thing = self._load(T_object_hand, positions)
+        motors = Motors(self._hand, positions, settings)
+        self._gears = {}
+        for finger in range(len(motors.stages)):
+            self._couple(hand, motors, finger)
         interval_s = settings.timestep_s * settings.control_steps
         self._run(hand, thing, motors, round(settings.squeeze_time_s / interval_s))
         before = self._pose(thing)
@@ -91,11 +101,11 @@ class Physics:
             moved_m=moved,
             turned_rad=turned,
             T_object_hand=inverse(after),
-            joint_angles_rad=np.array([state[0] for state in states]),
+            joint_positions=np.array([state[0] for state in states]),
             contacts=contacts,
         )
 
-    def _load(self, T_object_hand: Array, angles: Array) -> tuple[int, int]:
+    def _load(self, T_object_hand: Array, positions: Array) -> tuple[int, int]:
         """Create a world with the hand at its origin and the object; returns their body IDs."""
         client, settings = self._client, self._settings
         pybullet.resetSimulation(physicsClientId=client)
@@ -113,8 +123,8 @@ class Physics:
         )
         self._number_joints(hand)
         self._let_own_links_pass(hand)
-        for joint, angle in zip(self._joints, angles, strict=True):
-            pybullet.resetJointState(hand, joint, angle, physicsClientId=client)
+        for joint, position in zip(self._joints, positions, strict=True):
+            pybullet.resetJointState(hand, joint, position, physicsClientId=client)
         thing = self._load_object(inverse(T_object_hand))
         for link in (-1, *self._joints):
             pybullet.changeDynamics(
@@ -126,17 +136,12 @@ class Physics:
         """Find Bullet's index of each joint, which is also that of its child link."""
         count, client = pybullet.getNumJoints(hand, physicsClientId=self._client), self._client
         names = [pybullet.getJointInfo(hand, n, physicsClientId=client)[1] for n in range(count)]
-        self._joints = [names.index(name.encode()) for name in kinematics.JOINT_NAMES]
+        self._joints = [names.index(name.encode()) for name in self._hand.joint_names]
 
     def _let_own_links_pass(self, hand: int) -> None:
-        """Ignore collisions between links that are one link apart, like the search.
-
-        They cannot touch, but a folded finger is closer to the palm than Bullet's collision margin,
-        which would push the spread beyond its limit.
-        """
-        knuckles, bases, tips = self._joints[:2], self._joints[BASES], self._joints[TIPS]
-        pairs = [(-1, base) for base in bases[:2]] + list(zip(knuckles, tips[:2], strict=True))
-        for one, other in pairs:
+        """Ignore the collisions that the hand's description ignores, like the search."""
+        for pair in sorted(self._hand.ignored_pairs):
+            one, other = (-1 if link == PALM else self._joints[link - 1] for link in pair)
             pybullet.setCollisionFilterPair(
                 hand, hand, one, other, enableCollision=0, physicsClientId=self._client
             )
@@ -181,7 +186,7 @@ class Physics:
         settings, client = self._settings, self._client
         for _ in range(intervals):
             states = pybullet.getJointStates(hand, self._joints, physicsClientId=client)
-            self._release_stopped(hand, thing, motors)
+            self._stop_fingers(hand, thing, motors)
             speeds, torques = motors.drive(np.array([state[0] for state in states]))
             pybullet.setJointMotorControlArray(
                 hand,
@@ -195,36 +200,49 @@ class Physics:
                 pybullet.stepSimulation(physicsClientId=client)
             self.steps += settings.control_steps
 
-    def _couple(self, hand: int, motors: Motors) -> None:
-        """Add gear constraints between base and tip of the coupled fingers."""
-        client, settings = self._client, self._settings
-        self._gears = {}
-        for finger in np.flatnonzero(motors.coupled).tolist():
-            base, tip = self._joints[BASES][finger], self._joints[TIPS][finger]
+    def _couple(self, hand: int, motors: Motors, finger: int) -> None:
+        """Let the joints of a finger that still move follow the first of them, by gears."""
+        client, settings, described = self._client, self._settings, self._hand.fingers[finger]
+        for gear in self._gears.pop(finger, []):
+            pybullet.removeConstraint(gear, physicsClientId=client)
+        stage = motors.stages[finger]
+        if self._hand.direct or stage == len(described.joints):
+            return
+        driver, rates = self._joints[described.joints[stage]], described.rates[stage]
+        gears = []
+        for place in range(stage + 1, len(described.joints)):
+            if rates[place] == 0.0:
+                continue
+            follower = self._joints[described.joints[place]]
             gear = pybullet.createConstraint(
-                *(hand, base, hand, tip, pybullet.JOINT_GEAR),
+                *(hand, driver, hand, follower, pybullet.JOINT_GEAR),
                 *([0.0, 0.0, 1.0], [0.0, 0.0, 0.0], [0.0, 0.0, 0.0]),
                 physicsClientId=client,
             )
             pybullet.changeConstraint(
                 gear,
-                gearRatio=-1.0 / kinematics.DISTAL_RATIO,
+                gearRatio=-rates[stage] / rates[place],
                 erp=settings.gear_correction,
                 maxForce=settings.gear_torque_nm,
                 physicsClientId=client,
             )
-            self._gears[finger] = gear
+            gears.append(gear)
+        self._gears[finger] = gears
 
-    def _release_stopped(self, hand: int, thing: int, motors: Motors) -> None:
-        """Open the TorqueSwitch of the fingers whose base presses on the object."""
+    def _stop_fingers(self, hand: int, thing: int, motors: Motors) -> None:
+        """Stop the joints of coupled links that press on the object, and let the others go on."""
         client = self._client
-        for finger, gear in list(self._gears.items()):
-            base = self._joints[BASES][finger]
-            touching = pybullet.getContactPoints(hand, thing, base, physicsClientId=client)
-            if any(point[9] > 0.0 for point in touching):
-                pybullet.removeConstraint(gear, physicsClientId=client)
-                del self._gears[finger]
-                motors.release(finger)
+        if self._hand.direct:
+            return
+        for finger, described in enumerate(self._hand.fingers):
+            stage = motors.stages[finger]
+            for place in reversed(range(stage, len(described.joints) - 1)):
+                link = self._joints[described.joints[place]]
+                touching = pybullet.getContactPoints(hand, thing, link, physicsClientId=client)
+                if any(point[9] > 0.0 for point in touching):
+                    motors.stop(finger, place + 1)
+                    self._couple(hand, motors, finger)
+                    break
 
     def _pose(self, thing: int) -> Array:
         """(4, 4) object frame in the hand frame; Bullet itself reports the inertial frame."""
@@ -251,13 +269,12 @@ class Physics:
 
 
 @contextmanager
-def physics(
-    urdf: str | Path, geometry: ObjectGeometry, settings: PhysicsSettings
-) -> Iterator[Physics]:
-    """A physics server for one object, in this process, without a window."""
+def physics(hand: Hand, geometry: ObjectGeometry, settings: PhysicsSettings) -> Iterator[Physics]:
+    """A physics server for one hand and object, in this process, without a window."""
     client = pybullet.connect(pybullet.DIRECT)
     try:
-        yield Physics(client, Path(urdf), geometry, settings)
+        with TemporaryDirectory() as folder:
+            yield Physics(client, hand, write_urdf(hand, folder), geometry, settings)
     finally:
         pybullet.disconnect(client)
 

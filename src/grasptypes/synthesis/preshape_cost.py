@@ -11,38 +11,38 @@ import numpy as np
 from numpy.typing import NDArray
 
 from grasptypes.compiled import compiled
+from grasptypes.hands.description import ShapeRanges
+from grasptypes.hands.hand import PALM
 from grasptypes.labels.grasp_type import enclosed_diameters
-from grasptypes.settings.synthesis import ShapeRanges, ShapeSettings
+from grasptypes.settings.synthesis import ShapeSettings
 from grasptypes.synthesis.closing import moved
 from grasptypes.synthesis.fields import Field, distance, gradient
-from grasptypes.synthesis.hand_model import FIRST_DISTAL, FIRST_PROXIMAL, PALM, HandModel
+from grasptypes.synthesis.hand_model import HandModel
 from grasptypes.synthesis.scene import GraspScene
 
 Array = NDArray[np.float64]
-
-_FINGERS = FIRST_DISTAL - FIRST_PROXIMAL
 
 
 def preshape_cost(
     scene: GraspScene,
     link_poses: Array,
-    joint_angles_rad: Array,
+    joint_positions: Array,
     ranges: ShapeRanges,
     settings: ShapeSettings,
 ) -> Array:
     """Sum over the measures of the deviation from their ranges, as a share of the bound.
 
     Args:
-        link_poses: (n, 9, 4, 4) links in the object's frame.
-        joint_angles_rad: (n, 8) of the same hands.
+        link_poses: (n, L, 4, 4) links in the object's frame.
+        joint_positions: (n, J) of the same hands.
 
     Returns:
         (n,) 0 to 3; each measure counts at most 1.
     """
     gap, share = _palm_and_push(
-        scene.hand, scene.field, link_poses, settings.reach_m, settings.closing_weight
+        scene.model, scene.field, link_poses, settings.reach_m, settings.closing_weight
     )
-    diameter = np.median(enclosed_diameters(joint_angles_rad), axis=1)
+    diameter = np.median(enclosed_diameters(scene.hand, joint_positions), axis=1)
     allowed = (ranges.palm_gap_m, ranges.enclosed_diameter_m, ranges.sideways_share)
     total = np.zeros(len(link_poses))
     for values, (least, most) in zip((gap, diameter, share), allowed, strict=True):
@@ -60,12 +60,13 @@ def _palm_and_push(
     for n in range(len(poses)):
         gaps[n], _ = _nearest(model, grid, PALM, poses[n, PALM])
         total = 0.0
-        for link in range(FIRST_PROXIMAL, len(model.radii)):
+        for link in range(len(model.radii)):
+            if model.base_of_link[link] < 0:
+                continue
             gap, point = _nearest(model, grid, link, poses[n, link])
             if gap >= reach_m:
                 continue
-            base = poses[n, FIRST_PROXIMAL + (link - FIRST_PROXIMAL) % _FINGERS]
-            push = _push(grid, point, base, closing_weight)
+            push = _push(grid, point, poses[n, model.base_of_link[link]], closing_weight)
             along = 0.0
             for k in range(3):
                 along += push[k] * poses[n, PALM, k, 0]

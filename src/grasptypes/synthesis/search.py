@@ -8,14 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
-from grasptypes.hand import kinematics
-from grasptypes.hand.states import HandStates
-from grasptypes.settings.synthesis import (
-    RankingSettings,
-    RefinementSettings,
-    ShapeRanges,
-    SynthesisSettings,
-)
+from grasptypes.hands.description import ShapeRanges
+from grasptypes.hands.states import HandStates
+from grasptypes.settings.synthesis import RankingSettings, RefinementSettings, SynthesisSettings
 from grasptypes.synthesis.candidates import Demonstration, draw_candidates
 from grasptypes.synthesis.closing import close_fingers
 from grasptypes.synthesis.energy import (
@@ -27,7 +22,6 @@ from grasptypes.synthesis.energy import (
     energies,
 )
 from grasptypes.synthesis.equilibrium import wrench_residual
-from grasptypes.synthesis.hand_model import FIRST_DISTAL, FIRST_PROXIMAL
 from grasptypes.synthesis.preshape_cost import preshape_cost
 from grasptypes.synthesis.scene import GraspScene
 
@@ -70,20 +64,20 @@ class CostFunction(NamedTuple):
         poses = hands.link_poses()
         close = closeness(scene, poses)
         touching = close.gaps_m <= settings.ranking.contact_m
-        fingers = touching[:, FIRST_PROXIMAL:FIRST_DISTAL] | touching[:, FIRST_DISTAL:]
-        sound = fingers.sum(axis=1) >= settings.ranking.min_fingers
+        fingers = [touching[:, finger.links].any(axis=1) for finger in scene.hand.fingers]
+        sound = np.sum(fingers, axis=0) >= settings.ranking.min_fingers
         depth = np.maximum(close.penetration_m, close.self_depth_m)
         sound &= depth <= settings.ranking.max_depth_m
         sound |= every
         terms = np.full((len(sound), len(ALL_TERMS)), np.inf)
-        poses, angles = poses[sound], hands.joint_angles_rad[sound]
+        poses, positions = poses[sound], hands.joint_positions[sound]
         close = Closeness(close.gaps_m[sound], close.self_depth_m[sound])
         terms[sound, : len(TERMS)] = energies(
-            scene.hand, poses, close, self.targets, settings.energy
+            scene.model, poses, close, self.targets, settings.energy
         )
         residual = wrench_residual(scene, poses, settings.equilibrium)
         terms[sound, -2] = settings.equilibrium.weight * residual
-        cost = preshape_cost(scene, poses, angles, self.ranges, settings.grip_shape)
+        cost = preshape_cost(scene, poses, positions, self.ranges, settings.grip_shape)
         terms[sound, -1] = settings.grip_shape.weight * cost
         return RankedGrasps(hands, terms)
 
@@ -100,7 +94,7 @@ def search_session(
     tried anyway, so that the session's failure has a reason.
     """
     targets = draw_targets(demonstration, settings.energy, draw)
-    ranges = settings.candidates.grips.named(demonstration.grip).shape
+    ranges = scene.hand.grips.named(demonstration.grip).shape
     cost, touch_m = CostFunction(scene, targets, ranges, settings), settings.closing.touch_m
     hands = draw_candidates(scene, demonstration, settings.candidates, touch_m, draw)
     found = cost.evaluate(hands)
@@ -113,17 +107,16 @@ def search_session(
 
 
 def refine(cost: CostFunction, parents: RankedGrasps, draw: np.random.Generator) -> RankedGrasps:
-    """Vary pose and spread, close the fingers again, and keep grasps of lower energy.
+    """Vary pose and preshape, close the fingers again, and keep grasps of lower energy.
 
-    All ten degrees of freedom vary, and yet every grasp touches the object, which gradient steps in
+    All degrees of freedom vary, and yet every grasp touches the object, which gradient steps in
     joint space would not ensure.
     """
     how, touch_m = cost.settings.refinement, cost.settings.closing.touch_m
     scale = 1.0
     for _ in range(how.rounds):
-        hands = _varied(parents.hands, how, scale, draw)
-        T, spread = hands.T_object_hand, hands.joint_angles_rad[:, 0]
-        children = cost.evaluate(HandStates(T, close_fingers(cost.scene, T, spread, touch_m)))
+        T_object_hand, preshape = _varied(parents.hands, how, scale, draw)
+        children = cost.evaluate(close_fingers(cost.scene, T_object_hand, preshape, touch_m))
         energy = np.column_stack([parents.energy, children.energy.reshape(-1, how.children)])
         winner = energy.argmin(axis=1)
         row = np.arange(len(winner))
@@ -135,37 +128,42 @@ def refine(cost: CostFunction, parents: RankedGrasps, draw: np.random.Generator)
 
 def _varied(
     hands: HandStates, how: RefinementSettings, scale: float, draw: np.random.Generator
-) -> HandStates:
-    """Random neighbours (n * children) of hands (n); those of one hand are consecutive."""
+) -> tuple[Array, Array]:
+    """Random neighbours of hands (n): poses (n * children, 4, 4) and preshapes (n * children, P).
+
+    Those of one hand are consecutive.
+    """
     T = np.repeat(hands.T_object_hand, how.children, axis=0)
-    angles = np.repeat(hands.joint_angles_rad, how.children, axis=0)
+    preshape = np.repeat(hands.preshape, how.children, axis=0)
     shift = draw.normal(0.0, scale * how.position_sd_m, (len(T), 3))
     turn = Rotation.from_rotvec(draw.normal(0.0, scale * how.rotation_sd_rad, (len(T), 3)))
     T[:, :3, 3] += np.einsum("nij,nj->ni", T[:, :3, :3], shift)
     T[:, :3, :3] = T[:, :3, :3] @ turn.as_matrix()
-    low, high = kinematics.DOF_LIMITS_RAD[0]
-    spread = angles[:, :2] + draw.normal(0.0, scale * how.spread_sd_rad, len(T))[:, None]
-    angles[:, :2] = np.clip(spread, low, high)
-    return HandStates(T, angles)
+    low, high = hands.hand.dof_limits[: preshape.shape[1]].T
+    preshape = preshape + draw.normal(0.0, scale * how.preshape_sd_rad, preshape.shape)
+    return T, np.clip(preshape, low, high)
 
 
 def _joined(first: RankedGrasps, second: RankedGrasps) -> RankedGrasps:
-    hands = [np.concatenate(pair) for pair in zip(first.hands, second.hands, strict=True)]
-    return RankedGrasps(HandStates(*hands), np.concatenate([first.terms, second.terms]))
+    hands = [np.concatenate(pair) for pair in zip(first.hands[1:], second.hands[1:], strict=True)]
+    return RankedGrasps(
+        HandStates(first.hands.hand, *hands), np.concatenate([first.terms, second.terms])
+    )
 
 
 def _spaced(found: RankedGrasps, count: int, how: RankingSettings) -> NDArray[np.int64]:
     """Indices of up to `count` grasps by energy, without those too similar to a better one."""
     order = np.argsort(found.energy, kind="stable")
     order = order[np.isfinite(found.energy[order])]
-    T, spread = found.hands.T_object_hand, found.hands.joint_angles_rad[:, 0]
+    T, preshape = found.hands.T_object_hand, found.hands.preshape
     chosen: list[int] = []
     for index in order:
         if len(chosen) == count:
             break
         other = T[chosen]
         cosine = (np.einsum("nij,ij->n", other[:, :3, :3], T[index, :3, :3]) - 1.0) / 2.0
-        turned = np.arccos(np.clip(cosine, -1.0, 1.0)) + np.abs(spread[chosen] - spread[index])
+        turned = np.arccos(np.clip(cosine, -1.0, 1.0))
+        turned += np.abs(preshape[chosen] - preshape[index]).sum(axis=1)
         apart = np.linalg.norm(other[:, :3, 3] - T[index, :3, 3], axis=1)
         if np.all(apart + how.rotation_length_m * turned >= how.apart_m):
             chosen.append(int(index))

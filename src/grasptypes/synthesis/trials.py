@@ -8,7 +8,6 @@ from __future__ import annotations
 import logging
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import partial
-from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -16,8 +15,10 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from grasptypes.contact_maps.contact_map import ContactMap
-from grasptypes.hand import configuration, kinematics
-from grasptypes.hand.shapes import depth_in_hand
+from grasptypes.hands import configuration
+from grasptypes.hands.hand import Hand
+from grasptypes.hands.states import HandStates
+from grasptypes.hands.surface import depth_in_hand
 from grasptypes.objects.object_geometry import ObjectGeometry
 from grasptypes.seeds import rng, seed
 from grasptypes.settings.physics import GraspTestSettings, ValiditySettings
@@ -25,7 +26,7 @@ from grasptypes.settings.synthesis import SynthesisSettings
 from grasptypes.synthesis.candidates import Demonstration
 from grasptypes.synthesis.energy import closeness
 from grasptypes.synthesis.grasps import ENERGY_TERMS
-from grasptypes.synthesis.hand_model import FIRST_DISTAL, FIRST_PROXIMAL, sample_hand
+from grasptypes.synthesis.hand_model import sample_hand
 from grasptypes.synthesis.holding import Contact
 from grasptypes.synthesis.physics import Physics, physics
 from grasptypes.synthesis.preshape_cost import preshape_cost
@@ -44,8 +45,8 @@ class GraspTrial(NamedTuple):
     """One of `grasps.REASONS`, or empty."""
     T_object_hand: Array
     """(4, 4): as held at the end, or as planned if not held."""
-    joint_angles_rad: Array
-    """(8,) likewise."""
+    joint_positions: Array
+    """(J,) likewise."""
     penetration_m: float
     moved_m: float
     turned_rad: float
@@ -65,20 +66,17 @@ class SynthesisTask(NamedTuple):
 
 
 def synthesize(
-    task: SynthesisTask, urdf: str | Path, settings: SynthesisSettings, test: GraspTestSettings
+    task: SynthesisTask, hand: Hand, settings: SynthesisSettings, test: GraspTestSettings
 ) -> tuple[pd.DataFrame, pd.DataFrame]:
     """One grasp per session.
 
-    Args:
-        urdf: URDF of the hand.
-
     Returns:
-        Tables that meet `grasps.GRASP_SCHEMA` and `grasps.ATTEMPT_SCHEMA`.
+        Tables that meet `grasps.grasp_schema` and `grasps.attempt_schema`.
     """
-    surface_m, hand = task.contact_map.points.astype(np.float64), sample_hand(settings)
-    search = grasp_scene(hand.search, task.geometry, surface_m)
-    check = search._replace(hand=hand.check)
-    with physics(urdf, task.geometry, test.test) as world:
+    surface_m, models = task.contact_map.points.astype(np.float64), sample_hand(hand, settings)
+    search = grasp_scene(hand, models.search, task.geometry, surface_m)
+    check = search._replace(model=models.check)
+    with physics(hand, task.geometry, test.test) as world:
         tester = GraspTester(check, world, test.validity)
         return synthesize_sessions(task, search, tester, settings)
 
@@ -92,12 +90,12 @@ def synthesize_sessions(
     for number, demonstration in enumerate(demonstrations(task.contact_map), start=1):
         key = (task.object_name, task.task, number, task.seed)
         ranked = search_session(scene, demonstration, settings, rng("synthesis", *key))
-        ranges = settings.candidates.grips.named(demonstration.grip).shape
+        ranges = scene.hand.grips.named(demonstration.grip).shape
         cost = partial(preshape_cost, scene, ranges=ranges, settings=settings.grip_shape)
         trials = list(_until_kept(ranked, tester, cost, settings.grip_shape.kept))
         best = _best(trials)
         rows = [
-            _row(key, ranked.terms[rank], trial, rank, tester.validity)
+            _row(scene.hand, key, ranked.terms[rank], trial, rank, tester.validity)
             for rank, trial in enumerate(trials)
         ]
         attempts.extend({**row, "chosen": rank == best} for rank, row in enumerate(rows))
@@ -106,7 +104,7 @@ def synthesize_sessions(
                 **rows[best],
                 "tries": len(rows),
                 "grip": demonstration.grip,
-                **_contacts(trials[best]),
+                **_contacts(scene.hand, trials[best]),
             }
         )
         reasons = ", ".join(trial.reason or "valid" for trial in trials)
@@ -142,60 +140,65 @@ class GraspTester:
         self.world = world
         self.validity = validity
 
-    def try_grasp(self, T_object_hand: Array, joint_angles_rad: Array) -> GraspTrial:
+    def try_grasp(self, T_object_hand: Array, joint_positions: Array) -> GraspTrial:
         """Check a grasp as planned; if it has no flaw, test it, and check it as held."""
-        reason, depth = self._flaw(T_object_hand, joint_angles_rad)
-        planned = GraspTrial(reason, T_object_hand, joint_angles_rad, depth, 0.0, 0.0, [])
+        hand = self.scene.hand
+        reason, depth = self._flaw(T_object_hand, joint_positions)
+        planned = GraspTrial(reason, T_object_hand, joint_positions, depth, 0.0, 0.0, [])
         if reason:
             return planned
-        held = self.world.hold(T_object_hand, joint_angles_rad)
+        held = self.world.hold(T_object_hand, joint_positions)
         moved = held.moved_m, held.turned_rad
         if held.dropped:
             return planned._replace(reason="dropped", moved_m=moved[0], turned_rad=moved[1])
-        angles = held.joint_angles_rad.copy()
-        angles[:2] = angles[:2].mean()  # one motor turns both spreads, but the simulation has two
-        angles = np.clip(angles, *kinematics.JOINT_LIMITS_RAD.T)
-        reason, depth = self._flaw(held.T_object_hand, angles)
+        # One motor moves all joints of a preshape, but the simulation has one each.
+        shared = hand.preshaped(hand.preshape_of(held.joint_positions))
+        closing = [joint for finger in hand.fingers for joint in finger.joints]
+        shared[closing] = held.joint_positions[closing]
+        positions = np.clip(shared, *hand.joint_limits.T)
+        reason, depth = self._flaw(held.T_object_hand, positions)
         links = {contact.link for contact in held.contacts}
-        if self._beyond_limits(held.joint_angles_rad):
+        if self._beyond_limits(held.joint_positions):
             reason = "joint_limit"
         elif not reason and len(links) < self.validity.min_links:
             reason = "no_contact"
-        return GraspTrial(reason, held.T_object_hand, angles, depth, *moved, held.contacts)
+        return GraspTrial(reason, held.T_object_hand, positions, depth, *moved, held.contacts)
 
-    def _flaw(self, T_object_hand: Array, angles: Array) -> tuple[str, float]:
+    def _flaw(self, T_object_hand: Array, positions: Array) -> tuple[str, float]:
         """Geometric flaw of a pose, and penetration depth of hand and object.
 
         Both the hand's points in the object and the object's points in the hand are checked,
         because a thin wall can cut into a link between the points of either.
         """
-        poses = T_object_hand @ kinematics.link_poses(angles)
+        hand = self.scene.hand
+        poses = T_object_hand @ hand.link_poses(positions)
         close = closeness(self.scene, poses[None])
-        depth = max(float(close.penetration_m[0]), depth_in_hand(self.scene.surface_m, poses))
-        if self._beyond_limits(angles):
+        in_hand = depth_in_hand(hand, self.scene.surface_m, poses)
+        depth = max(float(close.penetration_m[0]), in_hand)
+        if self._beyond_limits(positions):
             return "joint_limit", depth
         if close.self_depth_m[0] > self.validity.max_depth_m:
             return "self_collision", depth
         if depth > self.validity.max_depth_m:
             return "penetrates", depth
-        fingers = close.gaps_m[0, FIRST_PROXIMAL:FIRST_DISTAL], close.gaps_m[0, FIRST_DISTAL:]
-        touching = np.minimum(*fingers) <= self.validity.touch_m
+        touching = close.gaps_m[0, list(hand.finger_links)] <= self.validity.touch_m
         return ("" if touching.any() else "no_contact"), depth
 
-    def _beyond_limits(self, angles: Array) -> bool:
-        limits, tolerance_rad = kinematics.JOINT_LIMITS_RAD, self.validity.limit_tolerance_rad
-        beyond = kinematics.beyond_limits(angles, limits, tolerance_rad).any()
-        return bool(beyond or kinematics.lag(angles).max() > self.validity.lag_tolerance_rad)
+    def _beyond_limits(self, positions: Array) -> bool:
+        hand, validity = self.scene.hand, self.validity
+        beyond = hand.beyond_limits(positions, validity.limit_tolerance_rad).any()
+        return bool(beyond or hand.lag(positions).max() > validity.lag_tolerance_rad)
 
 
 def _until_kept(
     ranked: RankedGrasps, tester: GraspTester, cost: Callable[[Array, Array], Array], kept: float
 ) -> Iterator[GraspTrial]:
     """Trials in order of rank, up to the first valid one that kept its grip."""
-    for T_object_hand, angles in zip(*ranked.hands, strict=True):
-        trial = tester.try_grasp(T_object_hand, angles)
-        poses = trial.T_object_hand @ kinematics.link_poses(trial.joint_angles_rad)
-        left = float(cost(poses[None], trial.joint_angles_rad[None])[0])
+    hands = ranked.hands
+    for T_object_hand, positions in zip(hands.T_object_hand, hands.joint_positions, strict=True):
+        trial = tester.try_grasp(T_object_hand, positions)
+        held = HandStates(hands.hand, trial.T_object_hand[None], trial.joint_positions[None])
+        left = float(cost(held.link_poses(), held.joint_positions)[0])
         yield trial._replace(deviation=left)
         if not trial.reason and left <= kept:
             return
@@ -208,13 +211,14 @@ def _best(trials: Sequence[GraspTrial]) -> int:
 
 
 def _row(
+    hand: Hand,
     key: tuple[str, str, int, int],
     terms: Array,
     trial: GraspTrial,
     rank: int,
     validity: ValiditySettings,
 ) -> Mapping[str, Any]:
-    numbers = configuration.pack(rank, trial.T_object_hand, trial.joint_angles_rad[[0, 2, 3, 4]])
+    numbers = configuration.pack(rank, trial.T_object_hand, hand.dofs_of(trial.joint_positions))
     return {
         "object": key[0],
         "task": key[1],
@@ -223,7 +227,7 @@ def _row(
         "energy": float(terms.sum()),
         **dict(zip(ENERGY_TERMS, terms.tolist(), strict=True)),
         "hand_configuration": numbers.tolist(),
-        "joint_angles_rad": trial.joint_angles_rad.tolist(),
+        "joint_angles_rad": trial.joint_positions.tolist(),
         "penetration_m": trial.penetration_m,
         "moved_m": trial.moved_m,
         "turned_rad": trial.turned_rad,
@@ -235,11 +239,11 @@ def _row(
     }
 
 
-def _contacts(trial: GraspTrial) -> Mapping[str, Any]:
+def _contacts(hand: Hand, trial: GraspTrial) -> Mapping[str, Any]:
     points = [number for contact in trial.contacts for number in contact.point_m.tolist()]
     normals = [number for contact in trial.contacts for number in contact.normal.tolist()]
     return {
-        "contact_links": [kinematics.LINK_NAMES[contact.link] for contact in trial.contacts],
+        "contact_links": [hand.link_names[contact.link] for contact in trial.contacts],
         "contact_points_m": points,
         "contact_normals": normals,
         "contact_forces_n": [contact.force_n for contact in trial.contacts],

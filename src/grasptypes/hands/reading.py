@@ -1,0 +1,385 @@
+"""Reading a hand's folder: hand.urdf, hand.yaml, grips.yaml and the meshes that the URDF names."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import manifold3d
+import numpy as np
+import trimesh
+from numpy.typing import NDArray
+
+from grasptypes.errors import InputError, parsing
+from grasptypes.hands.description import FingerDescription, Grips, HandDescription
+from grasptypes.hands.hand import ConvexPart, Finger, Hand, Joint, Link, Visual
+from grasptypes.settings.base import MisplacedError
+from grasptypes.yaml_files import read_yaml
+
+Array = NDArray[np.float64]
+
+HANDS = Path(__file__).parent / "data"
+URDF, DESCRIPTION, GRIPS = "hand.urdf", "hand.yaml", "grips.yaml"
+# Corners of round primitives: a cylinder of 10 mm radius is off by 0.1 mm.
+SEGMENTS = 24
+_GREY = (0.4, 0.4, 0.42, 1.0)
+
+
+def hand_names() -> list[str]:
+    """Names of the hands that come with the package."""
+    return sorted(path.parent.name for path in HANDS.glob(f"*/{DESCRIPTION}"))
+
+
+def hand_folder(name: str | Path, base: str | Path = ".") -> Path:
+    """Folder of a hand: one that comes with the package, or a folder of the user's.
+
+    Args:
+        base: what a relative folder is relative to.
+
+    Raises:
+        InputError: there is no such hand.
+    """
+    own = HANDS / str(name)
+    folder = own if str(name) in hand_names() else Path(base) / name
+    if not (folder / DESCRIPTION).is_file():
+        known = ", ".join(hand_names())
+        message = f"no such hand: use {known}, or a folder with {URDF}, {DESCRIPTION} and {GRIPS}"
+        raise InputError(str(name), "", message)
+    return folder
+
+
+def hand_files(name: str | Path) -> list[Path]:
+    """All files that a hand is read from, sorted; raises InputError if there is no such hand."""
+    endings = (".urdf", ".yaml", ".obj", ".stl")
+    return sorted(path for path in hand_folder(name).rglob("*") if path.suffix in endings)
+
+
+def load_hand(name: str | Path, base: str | Path = ".") -> Hand:
+    """Read a hand by the name of one that comes with the package, or a folder below `base`.
+
+    Raises:
+        InputError: the hand is unknown, or a file of it is wrong; names the file and the key.
+    """
+    return _load(hand_folder(name, base).resolve())
+
+
+@cache
+def _load(folder: Path) -> Hand:
+    described = HandDescription.check(read_yaml(folder / DESCRIPTION), folder / DESCRIPTION)
+    grips = Grips.check(read_yaml(folder / GRIPS), folder / GRIPS)
+    try:
+        grips.check_preshapes(len(described.preshape))
+    except MisplacedError as error:
+        raise InputError(folder / GRIPS, error.key, str(error)) from error
+    return _Reader(folder, described, grips).hand()
+
+
+class _Reader:
+    """Reads the URDF of a folder and matches it with the description."""
+
+    def __init__(self, folder: Path, described: HandDescription, grips: Grips) -> None:
+        import yourdfpy  # here, since it takes time
+
+        self._folder, self._described, self._grips = folder, described, grips
+        self._path = folder / URDF
+        if not self._path.is_file():
+            raise InputError(self._path, "", "no such file")
+        with parsing(self._path, "cannot be read as a URDF"):
+            self._robot = yourdfpy.URDF.load(
+                str(self._path), build_scene_graph=False, load_meshes=False
+            ).robot
+        self._joints = {joint.name: joint for joint in self._robot.joints}
+        self._above = {joint.child: joint for joint in self._robot.joints}
+        self._urdf_links = {link.name: link for link in self._robot.links}
+        self._materials = {material.name: material for material in self._robot.materials}
+        self._palm = described.palm.link
+        self._known(self._palm, self._urdf_links, "palm.link", "link")
+
+    def hand(self) -> Hand:
+        """The hand; raises InputError."""
+        moving = self._moving_joints()
+        carried = {self._palm: 0} | {
+            self._joints[name].child: index + 1 for index, name in enumerate(moving)
+        }
+        joints, turned = [], {0: self._T_link_hand()}
+        for index, name in enumerate(moving):
+            parent, T_parent_rest = self._rest(name, carried)
+            T_rest, T_axis = self._along_axis(name, T_parent_rest)
+            joints.append(
+                self._joint(
+                    name,
+                    parent,
+                    np.linalg.inv(turned[parent]) @ T_rest if parent in turned else T_rest,
+                )
+            )
+            if T_axis is not None:
+                turned[index + 1] = T_axis
+        merged = self._rigidly_attached(carried)
+        links = [
+            self._link(name, index, merged[index], turned.get(index))
+            for name, index in carried.items()
+        ]
+        numbers = {name: index for index, name in enumerate(moving)}
+        described = self._described
+        return Hand(
+            folder=str(self._folder),
+            title=described.name,
+            links=tuple(links),
+            joints=tuple(joints),
+            preshape={
+                dof: {numbers[joint]: factor for joint, factor in driven.items()}
+                for dof, driven in described.preshape.items()
+            },
+            fingers=tuple(
+                self._finger(name, finger, numbers, turned)
+                for name, finger in described.fingers.items()
+            ),
+            direct=described.drive == "direct",
+            motors=described.motors,
+            ignored_pairs=frozenset(self._ignored(carried)),
+            grips=self._grips,
+            exchange=described.exchange,
+        )
+
+    def _known(self, name: str, among: Any, key: str, kind: str) -> None:
+        if name not in among:
+            message = f"'{name}' is no {kind} of {URDF}; it has {', '.join(among)}"
+            raise InputError(self._folder / DESCRIPTION, key, message)
+
+    def _moving_joints(self) -> list[str]:
+        """Names of all joints that move, in the hand's order."""
+        described, named = self._described, {}
+        for dof, driven in described.preshape.items():
+            for name in driven:
+                named[name] = f"preshape.{dof}"
+        first = list(named)
+        chains = [list(finger.joints) for finger in described.fingers.values()]
+        for (finger, _), chain in zip(described.fingers.items(), chains, strict=True):
+            for name in chain:
+                if name in named:
+                    message = f"'{name}' already belongs to {named[name]}"
+                    raise InputError(
+                        self._folder / DESCRIPTION, f"fingers.{finger}.joints", message
+                    )
+                named[name] = f"fingers.{finger}.joints"
+        for name, key in named.items():
+            self._known(name, self._joints, key, "joint")
+        free = [
+            joint.name
+            for joint in self._robot.joints
+            if joint.type != "fixed" and joint.name not in named
+        ]
+        if free:
+            message = f"says nothing about {', '.join(free)}: add to preshape or fingers, or fix"
+            raise InputError(self._folder / DESCRIPTION, "", message)
+        longest = max(map(len, chains))
+        rows = [chain[place] for place in range(longest) for chain in chains if place < len(chain)]
+        return [*first, *rows]
+
+    def _rest(self, name: str, carried: dict[str, int]) -> tuple[int, Array]:
+        """The link that carries a joint, and the pose of the joint's child in it at zero."""
+        joint = self._joints[name]
+        chain = [joint]
+        while chain[0].parent not in carried:
+            if chain[0].parent not in self._above:
+                message = f"joint '{name}' is not connected to the palm '{self._palm}'"
+                raise InputError(self._path, "", message)
+            chain.insert(0, self._above[chain[0].parent])
+            if chain[0].type != "fixed":
+                message = f"'{chain[0].name}' comes after '{name}' although it is nearer the palm"
+                raise InputError(self._folder / DESCRIPTION, "", message)
+        T = self._origin(chain[0])
+        for following in chain[1:]:
+            T = T @ self._origin(following)
+        return carried[chain[0].parent], T
+
+    def _origin(self, joint: Any) -> Array:
+        return np.eye(4) if joint.origin is None else np.asarray(joint.origin, dtype=np.float64)
+
+    def _along_axis(self, name: str, T_rest: Array) -> tuple[Array, Array | None]:
+        """The pose with z along the joint's axis, and its pose in the URDF's link (None: equal)."""
+        axis = np.asarray(self._joints[name].axis, dtype=np.float64)
+        length = np.linalg.norm(axis)
+        if not length > 0:
+            raise InputError(self._path, f"joint {name}", "its axis has no length")
+        axis = axis / length
+        if np.allclose(axis, [0, 0, 1], atol=1e-12):
+            return T_rest, None
+        T = np.eye(4)
+        T[:3, :3] = trimesh.geometry.align_vectors([0, 0, 1], axis)[:3, :3]
+        return T_rest @ T, T
+
+    def _joint(self, name: str, parent: int, T_parent_rest: Array) -> Joint:
+        joint, values = self._joints[name], {}
+        if joint.type not in ("revolute", "prismatic"):
+            message = f"is {joint.type}; a joint that moves must be revolute or prismatic"
+            raise InputError(self._path, f"joint {name}", message)
+        for key in ("lower", "upper", "effort", "velocity"):
+            value = getattr(joint.limit, key, None)
+            if value is None or not np.isfinite(value):
+                raise InputError(self._path, f"joint {name}", f"its limit has no {key}")
+            values[key] = float(value)
+        if values["lower"] >= values["upper"]:
+            raise InputError(self._path, f"joint {name}", "its lower limit is not below the upper")
+        limits = values["lower"], values["upper"]
+        prismatic = joint.type == "prismatic"
+        return Joint(
+            name, parent, prismatic, T_parent_rest, limits, values["effort"], values["velocity"]
+        )
+
+    def _T_link_hand(self) -> Array:
+        import trimesh.transformations as tra
+
+        palm = self._described.palm
+        T = np.asarray(tra.euler_matrix(*palm.rpy_rad, "sxyz"), dtype=np.float64)
+        T[:3, 3] = palm.xyz_m
+        return T
+
+    def _rigidly_attached(self, carried: dict[str, int]) -> list[list[tuple[str, Array]]]:
+        """For each link, the URDF links fixed to it and their poses in it."""
+        merged: list[list[tuple[str, Array]]] = [[(name, np.eye(4))] for name in carried]
+        for name in self._urdf_links:
+            if name in carried:
+                continue
+            T, at = np.eye(4), name
+            while at not in carried and at in self._above:
+                joint = self._above[at]
+                T, at = self._origin(joint) @ T, joint.parent
+            if at in carried:
+                merged[carried[at]].append((name, T))
+        return merged
+
+    def _link(
+        self, name: str, index: int, members: list[tuple[str, Array]], T_urdf_link: Array | None
+    ) -> Link:
+        parts: list[ConvexPart] = []
+        visuals: list[Visual] = []
+        masses, centres, inertias = [], [], []
+        for member, T in members:
+            urdf_link = self._urdf_links[member]
+            T_here = T if T_urdf_link is None else np.linalg.inv(T_urdf_link) @ T
+            for number, shape in enumerate(urdf_link.collisions):
+                parts.append(self._part(member, number, shape, T_here))
+            for number, shape in enumerate(urdf_link.visuals):
+                visuals.append(self._visual(member, number, shape, T_here))
+            if urdf_link.inertial is not None and urdf_link.inertial.mass:
+                origin = urdf_link.inertial.origin
+                T_com = T_here @ (np.eye(4) if origin is None else np.asarray(origin))
+                masses.append(float(urdf_link.inertial.mass))
+                centres.append(T_com[:3, 3])
+                inertias.append(T_com[:3, :3] @ urdf_link.inertial.inertia @ T_com[:3, :3].T)
+        if not masses:
+            raise InputError(self._path, f"link {name}", "has no mass")
+        if not parts:
+            raise InputError(self._path, f"link {name}", "has no collision shape")
+        mass = sum(masses)
+        centre = np.average(centres, axis=0, weights=masses) if len(masses) > 1 else centres[0]
+        inertia = np.zeros((3, 3))
+        for m, c, moment in zip(masses, centres, inertias, strict=True):
+            r = c - centre
+            inertia = inertia + moment + m * (r @ r * np.eye(3) - np.outer(r, r))
+        return Link(name, tuple(parts), tuple(visuals), mass, centre, inertia, self._friction(name))
+
+    def _friction(self, name: str) -> float:
+        """Friction of a link: yourdfpy does not read `contact`, so it is read from the text."""
+        return _frictions(self._path).get(name, 1.0)
+
+    def _part(self, member: str, number: int, shape: Any, T: Array) -> ConvexPart:
+        mesh_name, vertices, faces = self._shape(member, shape, T, exact_hull=True)
+        return ConvexPart(mesh_name or f"{member}_{number}", vertices, faces)
+
+    def _visual(self, member: str, number: int, shape: Any, T: Array) -> Visual:
+        mesh_name, vertices, faces = self._shape(member, shape, T, exact_hull=False)
+        material = shape.material
+        known = self._materials.get(material.name) if material is not None else None
+        colour = next((m.color for m in (material, known) if m is not None and m.color), None)
+        rgba = tuple(map(float, colour.rgba)) if colour is not None else _GREY
+        name = mesh_name or f"{member}_{number}"
+        kind = material.name if material is not None and material.name else name
+        return Visual(name, kind, rgba, vertices, faces)  # type: ignore[arg-type]
+
+    def _shape(
+        self, member: str, shape: Any, T: Array, exact_hull: bool
+    ) -> tuple[str, Array, NDArray[np.int64]]:
+        """Name (of a mesh file), vertices and faces of a shape in its link's frame."""
+        geometry, name = shape.geometry, ""
+        if geometry.mesh is not None:
+            path = self._folder / geometry.mesh.filename
+            if not path.is_file():
+                raise InputError(
+                    self._path, f"link {member}", f"{geometry.mesh.filename}: no such file"
+                )
+            with parsing(path, "cannot be read as a mesh"):
+                mesh = trimesh.load_mesh(path, process=False, maintain_order=True)
+            scale = geometry.mesh.scale
+            vertices = np.asarray(mesh.vertices, dtype=np.float64)
+            faces = np.asarray(mesh.faces, dtype=np.int64)
+            if scale is not None:
+                vertices = vertices * np.asarray(scale)
+        else:
+            solid = self._primitive(member, geometry)
+            mesh64 = solid.to_mesh64()
+            vertices, faces = mesh64.vert_properties[:, :3], mesh64.tri_verts.astype(np.int64)
+        T_shape = T if shape.origin is None else T @ np.asarray(shape.origin)
+        if np.array_equal(T_shape, np.eye(4)) and geometry.mesh is not None:
+            # Links that share a mesh file share its name.
+            name = path.stem if scale is None else ""
+        else:
+            vertices = vertices @ T_shape[:3, :3].T + T_shape[:3, 3]
+        if exact_hull:
+            vertices, faces = _convex(vertices, faces)
+        return name, vertices, faces
+
+    def _primitive(self, member: str, geometry: Any) -> manifold3d.Manifold:
+        if geometry.box is not None:
+            return manifold3d.Manifold.cube(tuple(map(float, geometry.box.size)), True)
+        if geometry.cylinder is not None:
+            radius, length = float(geometry.cylinder.radius), float(geometry.cylinder.length)
+            return manifold3d.Manifold.cylinder(length, radius, radius, SEGMENTS, True)
+        if geometry.sphere is not None:
+            return manifold3d.Manifold.sphere(float(geometry.sphere.radius), SEGMENTS)
+        raise InputError(self._path, f"link {member}", "has a shape of unknown kind")
+
+    def _finger(
+        self, name: str, described: FingerDescription, numbers: dict[str, int],
+        turned: dict[int, Array],
+    ) -> Finger:  # fmt: skip
+        joints = tuple(numbers[joint] for joint in described.joints)
+        tip = np.array(described.tip_m, dtype=np.float64)
+        T = turned.get(joints[-1] + 1)
+        if T is not None:
+            tip = (tip - T[:3, 3]) @ T[:3, :3]
+        return Finger(
+            name, joints, np.array(described.open), np.array(described.rates),
+            np.array(described.bend_rad), described.half_thickness_m, tip, described.thumb,
+        )  # fmt: skip
+
+    def _ignored(self, carried: dict[str, int]) -> Iterator[tuple[int, int]]:
+        for index, pair in enumerate(self._described.ignored_collisions):
+            for name in pair:
+                self._known(name, carried, f"ignored_collisions.{index}", "moving link")
+            first, second = sorted(carried[name] for name in pair)
+            yield first, second
+
+
+def _convex(vertices: Array, faces: NDArray[np.int64]) -> tuple[Array, NDArray[np.int64]]:
+    """The hull of a solid's corners; unchanged if they are all on it and it is closed."""
+    hull = manifold3d.Manifold.hull_points(vertices)
+    mesh = hull.to_mesh64()
+    if len(mesh.vert_properties) == len(vertices) and len(mesh.tri_verts) == len(faces):
+        return vertices, faces
+    return mesh.vert_properties[:, :3], mesh.tri_verts.astype(np.int64)
+
+
+@cache
+def _frictions(path: Path) -> dict[str, float]:
+    from xml.etree import ElementTree
+
+    found = {}
+    for link in ElementTree.parse(path).getroot().findall("link"):
+        value = link.find("contact/lateral_friction")
+        if value is not None:
+            found[str(link.get("name"))] = float(value.get("value", "1"))
+    return found
