@@ -93,8 +93,7 @@ def _candidates(case: Case, rounds: int) -> Figure:
 def _place(case: Case, demonstration: Demonstration, draw: np.random.Generator) -> None:
     scene, settings = case.scene, case.settings
     targets = draw_targets(demonstration, settings.energy, draw)
-    touch_m = settings.closing.touch_m
-    hands = draw_candidates(scene, demonstration, settings.candidates, touch_m, draw)
+    hands = draw_candidates(scene, demonstration, settings.candidates, settings.closing, draw)
     poses = hands.link_poses()
     energies(scene.model, poses, closeness(scene, poses), targets, settings.energy)
 

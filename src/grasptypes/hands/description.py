@@ -8,6 +8,8 @@ from pydantic import Field, model_validator
 
 from grasptypes.settings.base import Many, MisplacedError, Pair, Settings, Triple, Unique, setting
 
+# The grips of the affinity table.
+GRIPS = ("wrap", "enclose", "tripod", "pinch", "rim")
 Number = Annotated[float, Field(ge=-10, le=10)]
 Bound = Annotated[float, Field(ge=-1, le=1)]
 
@@ -77,16 +79,30 @@ class HandDescription(Settings):
     name: str = setting("name as printed", min_length=1)
     palm: PalmDescription
     preshape: dict[str, dict[str, Number]] = setting(
-        "degrees of freedom set before closing: the joints that each turns, with factors"
+        "degrees of freedom set before closing: the joints that each turns, with factors; joints "
+        "with the factor 0 stay at 0"
     )
     fingers: dict[str, FingerDescription] = setting(
         "fingers by the name of their degree of freedom", min_length=2, max_length=5
+    )
+    self_centring: bool = setting(
+        "whether the fingers move together, so that the hand gives way sideways until all touch",
+        default=False,
+    )
+    ends_at_palm: bool = setting(
+        "whether fingers that miss the object are stopped by the palm before their limits",
+        default=False,
     )
     drive: Literal["coupled", "direct"] = setting(
         "coupled: one motor a finger, whose joints move at fixed rates until one is stopped; "
         "direct: one motor a joint"
     )
     motors: MotorDescription
+    solver_iterations: int = setting(
+        "iterations per time step with which a physics engine keeps the couplings rigid",
+        ge=1,
+        le=1000,
+    )
     ignored_collisions: Many[Pair[str]] = setting(
         "pairs of links whose contact does not count, besides links joined by a joint"
     )
@@ -121,26 +137,52 @@ class Grip(Settings):
 
 
 class Grips(Settings):
-    """The grips of the affinity table."""
+    """How a hand performs the grips of the affinity table."""
 
     start_m: float = setting(
         "distance in front of the object at which open hands start", ge=0.1, le=2
     )
-    wrap: Grip
-    enclose: Grip
-    tripod: Grip
-    pinch: Grip
-    rim: Grip
+    wrap: Grip | None = None
+    enclose: Grip | None = None
+    tripod: Grip | None = None
+    pinch: Grip | None = None
+    rim: Grip | None = None
+    instead: dict[str, str] = setting(
+        "grips that the hand cannot perform, each with the one that takes its place",
+        default_factory=dict,
+    )
+    sideways_share: float | None = setting(
+        "sideways share of three virtual fingers, if it is not that of the fitted rule",
+        gt=0,
+        le=1,
+        default=None,
+    )
 
     def named(self, name: str) -> Grip:
-        """The grip of this name."""
-        grip: Grip = getattr(self, name)
+        """The grip of this name, or the one that takes its place."""
+        grip = getattr(self, self.instead.get(name, name))
+        assert isinstance(grip, Grip)  # `_all_are_known` has checked it
         return grip
+
+    @model_validator(mode="after")
+    def _all_are_known(self) -> Self:
+        described = [name for name in GRIPS if getattr(self, name) is not None]
+        for name in GRIPS:
+            if name in described and name in self.instead:
+                raise MisplacedError(f"instead.{name}", "the grip is described, too")
+            if name not in described and self.instead.get(name) not in described:
+                allowed = ", ".join(described) or "a described grip"
+                raise MisplacedError(
+                    "instead", f"'{name}' is not described: name another one for it ({allowed})"
+                )
+        for unknown in self.instead.keys() - set(GRIPS):
+            raise MisplacedError("instead", f"'{unknown}' is not one of {', '.join(GRIPS)}")
+        return self
 
     def check_preshapes(self, count: int) -> None:
         """Check that every preshape has `count` numbers; raises MisplacedError."""
-        for name in type(self).model_fields:
-            if name == "start_m":
+        for name in GRIPS:
+            if name in self.instead:
                 continue
             for index, preshape in enumerate(self.named(name).preshapes):
                 if len(preshape) != count:

@@ -122,6 +122,9 @@ class Hand:
         preshape: joints that each preshape moves, with factors, by name.
         fingers: in the order of the description.
         direct: whether each joint has a motor of its own.
+        self_centring: whether the fingers move together; then the hand gives way sideways.
+        ends_at_palm: whether fingers that miss the object are stopped by the palm.
+        solver_iterations: iterations per time step that a physics engine needs.
         ignored_pairs: pairs of links whose contact does not count.
     """
 
@@ -132,7 +135,10 @@ class Hand:
     preshape: dict[str, dict[int, float]]
     fingers: tuple[Finger, ...]
     direct: bool
+    self_centring: bool
+    ends_at_palm: bool
     motors: MotorDescription
+    solver_iterations: int
     ignored_pairs: frozenset[tuple[int, int]]
     grips: Grips
     exchange: ExchangeDescription
@@ -162,7 +168,7 @@ class Hand:
         """(D, 2) limits of the degrees of freedom: those of a finger are its first joint's."""
         limits = [
             np.array([np.sort(self.joint_limits[j] / factor) for j, factor in joints.items()])
-            for joints in self.preshape.values()
+            for joints in map(_turned, self.preshape.values())
         ]
         ends = [[ends[:, 0].max(), ends[:, 1].min()] for ends in limits]
         return np.array([*ends, *(self.joint_limits[f.joints[0]] for f in self.fingers)])
@@ -211,7 +217,8 @@ class Hand:
         """Preshape (..., P) of joint positions (..., J); joints that share one count alike."""
         values = np.empty((*positions.shape[:-1], len(self.preshape)))
         for dof, joints in enumerate(self.preshape.values()):
-            columns, factors = list(joints), np.array(list(joints.values()))
+            turned = _turned(joints)
+            columns, factors = list(turned), np.array(list(turned.values()))
             values[..., dof] = (positions[..., columns] / factors).mean(axis=-1)
         return values
 
@@ -298,6 +305,11 @@ class Hand:
     def beyond_limits(self, joint_positions: ArrayLike, tolerance: float) -> NDArray[np.bool_]:
         """Which joint positions (..., J) exceed the limits by more than a tolerance, rad or m."""
         return beyond(joint_positions, self.joint_limits, tolerance)
+
+
+def _turned(joints: dict[int, float]) -> dict[int, float]:
+    """The joints that a preshape turns, without those that it keeps at 0."""
+    return {joint: factor for joint, factor in joints.items() if factor}
 
 
 def beyond(values: ArrayLike, limits: Array, tolerance: float) -> NDArray[np.bool_]:

@@ -137,7 +137,10 @@ class _Reader:
                 for name, finger in described.fingers.items()
             ),
             direct=described.drive == "direct",
+            self_centring=described.self_centring,
+            ends_at_palm=described.ends_at_palm,
             motors=described.motors,
+            solver_iterations=described.solver_iterations,
             ignored_pairs=frozenset(self._ignored(carried)),
             grips=self._grips,
             exchange=described.exchange,

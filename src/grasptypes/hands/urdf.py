@@ -9,7 +9,7 @@ from xml.etree import ElementTree as Xml
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.spatial.transform import Rotation
+from trimesh.transformations import euler_from_matrix
 
 from grasptypes.files import write_text
 from grasptypes.hands.hand import Hand, Joint, Link
@@ -95,7 +95,7 @@ def _add_joint(robot: Element, hand: Hand, index: int, joint: Joint) -> None:
     kind = "prismatic" if joint.prismatic else "revolute"
     element = _add(robot, "joint", name=joint.name, type=kind)
     pose = joint.T_parent_rest
-    rpy = Rotation.from_matrix(pose[:3, :3]).as_euler("xyz")
+    rpy = euler_from_matrix(pose, "sxyz")
     Xml.SubElement(element, "origin", xyz=_numbers(pose[:3, 3]), rpy=_numbers(rpy, 9))
     Xml.SubElement(element, "parent", link=hand.links[joint.parent].name)
     Xml.SubElement(element, "child", link=hand.links[index + 1].name)
@@ -111,7 +111,7 @@ def _add_joint(robot: Element, hand: Hand, index: int, joint: Joint) -> None:
 def _leader(hand: Hand, index: int) -> tuple[str, str] | None:
     """Name of the joint that a joint follows while nothing stops it, and the ratio, if any."""
     for joints in hand.preshape.values():
-        first = next(iter(joints))
+        first = next(joint for joint, factor in joints.items() if factor)
         if index in joints and index != first:
             return hand.joint_names[first], f"{joints[index] / joints[first]:g}"
     for finger in hand.fingers:

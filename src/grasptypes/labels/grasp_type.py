@@ -33,6 +33,8 @@ INVALID = "Invalid"
 TYPES = (LARGE_WRAP, MEDIUM_WRAP, SMALL_WRAP, POWER_SPHERE, PRECISION_SPHERE, PRECISION)
 GRASP_TYPES = (*TYPES, INVALID)
 SPHERES = (POWER_SPHERE, PRECISION_SPHERE)
+# The largest diameter that is measured: no limit of a grip's shape is larger.
+WIDEST_M = 1.0
 
 
 class Measures(NamedTuple):
@@ -141,8 +143,11 @@ def enclosed_diameters(hand: Hand, joint_positions: ArrayLike) -> Array:
                 float(np.linalg.norm(hand.joints[joint].T_parent_rest[:3, 3]))
                 for joint in finger.joints[1:]
             ]
-            radius = sum(lengths) / (tangents[:, :-1] + tangents[:, 1:]).sum(axis=1)
-        diameters[:, column] = np.maximum(2.0 * (radius - finger.half_thickness_m), 0.0)
+            tangent = (tangents[:, :-1] + tangents[:, 1:]).sum(axis=1)
+            # A finger that is straight in the palm plane encloses no circle.
+            widest = np.full(len(tangent), WIDEST_M / 2.0)
+            radius = np.divide(sum(lengths), tangent, out=widest, where=tangent > 0.0)
+        diameters[:, column] = np.clip(2.0 * (radius - finger.half_thickness_m), 0.0, WIDEST_M)
     return diameters
 
 

@@ -55,6 +55,8 @@ class LabellingRule(Settings):
         ratio = hand.finger_length_m / self.finger_length_m
         lengths = ("palm_gap_m", "small_diameter_m", "large_span_m")
         scaled = {name: getattr(self.thresholds, name) * ratio for name in lengths}
+        if hand.grips.sideways_share is not None:
+            scaled["sideways_share"] = hand.grips.sideways_share
         return self.thresholds.changed(**scaled)
 
 

@@ -24,7 +24,6 @@ class PhysicsSettings(Settings):
     """The test in PyBullet."""
 
     timestep_s: float = setting("time step", ge=0.0001, le=0.01)
-    solver_iterations: int = setting("iterations of the constraint solver per step", ge=1, le=1000)
     friction: float = setting("Coulomb coefficient between hand and object", ge=0, le=5)
     gravity_m_s2: float = setting("acceleration of gravity", ge=0, le=100)
     control_steps: int = setting("time steps between commands to the motors", ge=1, le=100)

@@ -41,6 +41,9 @@ class ClosingSettings(Settings):
     """When a moving link stops."""
 
     touch_m: float = setting("distance between touching surfaces", gt=0, le=0.005)
+    palm_depth_m: float = setting(
+        "depth of a fingertip in the palm above which its last motion is taken back", ge=0, le=0.01
+    )
 
 
 class EnergySettings(Settings):

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from grasptypes.hands.states import HandStates
-from grasptypes.settings.synthesis import CandidateSettings
+from grasptypes.settings.synthesis import CandidateSettings, ClosingSettings
 from grasptypes.synthesis.closing import close_fingers, slide_in
 from grasptypes.synthesis.scene import GraspScene
 
@@ -46,10 +46,10 @@ def draw_candidates(
     scene: GraspScene,
     demonstration: Demonstration,
     settings: CandidateSettings,
-    touch_m: float,
+    closing: ClosingSettings,
     draw: np.random.Generator,
 ) -> HandStates:
-    """Hands that have approached the object and closed their fingers to within `touch_m`."""
+    """Hands that have approached the object and closed their fingers."""
     count = settings.number
     followers = draw.random(count) < settings.follow_share
     aim, approach, side = _aims(demonstration, followers, settings, draw)
@@ -63,11 +63,11 @@ def draw_candidates(
     start = np.einsum("ni,ni->n", aim, approach) - foremost + grips.start_m
     T[:, :3, 3] = aim - start[:, None] * approach
     T[:, 3, 3] = 1.0
-    moved = slide_in(scene, T, preshape, start - distance, touch_m)
-    touched = moved < start - distance - touch_m
+    moved = slide_in(scene, T, preshape, start - distance, closing.touch_m)
+    touched = moved < start - distance - closing.touch_m
     moved -= touched * draw.choice(settings.back_offs_m, count)
     T[:, :3, 3] += moved[:, None] * approach
-    return close_fingers(scene, T, preshape, touch_m)
+    return close_fingers(scene, T, preshape, closing)
 
 
 def frames(approach: Array, side: Array) -> Array:

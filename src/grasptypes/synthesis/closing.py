@@ -10,15 +10,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from grasptypes.compiled import compiled
-from grasptypes.hands.hand import Hand
+from grasptypes.hands.hand import PALM, Hand
 from grasptypes.hands.states import HandStates
-from grasptypes.synthesis.fields import Field, distance
+from grasptypes.settings.synthesis import ClosingSettings
+from grasptypes.synthesis.fields import Field, distance, field_at
 from grasptypes.synthesis.hand_model import HandModel
 from grasptypes.synthesis.scene import GraspScene
 
 Array = NDArray[np.float64]
 
 MAX_STEPS = 60
+# Bisections of a motion that ends in the palm: a thousandth of it remains.
+HALVINGS = 10
 
 
 def slide_in(
@@ -41,18 +44,17 @@ def slide_in(
 
 
 def close_fingers(
-    scene: GraspScene, T_object_hand: Array, preshape: Array, touch_m: float
+    scene: GraspScene, T_object_hand: Array, preshape: Array, settings: ClosingSettings
 ) -> HandStates:
     """Close each finger until it touches, like the real hand.
 
     The joints of a finger move at the rates of its description. If a link is stopped, it and those
     before it stay, and the others go on at their own rates until the last one touches or reaches
-    its limit.
+    its limit, or the palm if the hand's fingers reach it.
 
     Args:
         T_object_hand: (n, 4, 4) hands in the object's frame.
         preshape: (n, P).
-        touch_m: distance between surfaces at which a link stops.
 
     Returns:
         Hands with joint positions within their limits.
@@ -61,9 +63,30 @@ def close_fingers(
     positions = hand.preshaped(preshape)
     first = [finger.links[0] for finger in hand.fingers]
     T_object_rest = T_object_hand[:, None] @ hand.link_poses(positions)[:, first]
-    closed = _close(scene.model, scene.field, T_object_rest, touch_m)
+    closed = _close(
+        *(scene.model, scene.field, T_object_hand, T_object_rest),
+        *(settings.touch_m, settings.palm_depth_m),
+    )
     for row, finger in enumerate(hand.fingers):
         positions[:, list(finger.joints)] = closed[:, row, : len(finger.joints)]
+    states = HandStates(hand, T_object_hand, positions)
+    return _centred(states) if hand.self_centring else states
+
+
+def _centred(states: HandStates) -> HandStates:
+    """Hands that have given way until their fingers, which slide together, are equally closed.
+
+    Each finger stays where it touches: the hand moves along its axis by what it closed too much.
+    """
+    hand, positions = states.hand, states.joint_positions.copy()
+    joints = [finger.joints[0] for finger in hand.fingers]
+    mean = positions[:, joints].mean(axis=1, keepdims=True)
+    axes = hand.link_poses(positions)[:, [joint + 1 for joint in joints]][..., :3, 2]
+    excess = positions[:, joints] - mean
+    shift = np.einsum("nf,nfi->ni", excess, axes) / len(joints)
+    positions[:, joints] = mean
+    T_object_hand = states.T_object_hand.copy()
+    T_object_hand[:, :3, 3] += np.einsum("nij,nj->ni", T_object_hand[:, :3, :3], shift)
     return HandStates(hand, T_object_hand, positions)
 
 
@@ -121,6 +144,27 @@ def moved(pose: Array, points: Array, row: int) -> tuple[float, float, float]:
     )
 
 
+@compiled()
+def overlap(model: HandModel, link: int, pose: Array, other: int, other_pose: Array) -> float:
+    """Depth of a link's deepest point in another link, 0 if they do not overlap."""
+    cx, cy, cz = moved(pose, model.centres, link)
+    ox, oy, oz = moved(other_pose, model.centres, other)
+    reach = model.radii[link] + model.radii[other]
+    if (cx - ox) ** 2 + (cy - oy) ** 2 + (cz - oz) ** 2 > reach * reach:
+        return 0.0
+    depth = 0.0
+    for index in range(model.starts[link], model.starts[link + 1]):
+        x, y, z = moved(pose, model.points, index)
+        if (x - ox) ** 2 + (y - oy) ** 2 + (z - oz) ** 2 > model.radii[other] ** 2:
+            continue
+        x, y, z = x - other_pose[0, 3], y - other_pose[1, 3], z - other_pose[2, 3]
+        bx = other_pose[0, 0] * x + other_pose[1, 0] * y + other_pose[2, 0] * z
+        by = other_pose[0, 1] * x + other_pose[1, 1] * y + other_pose[2, 1] * z
+        bz = other_pose[0, 2] * x + other_pose[1, 2] * y + other_pose[2, 2] * z
+        depth = max(depth, -distance(field_at(model.grids, model.grid_of_link[other]), bx, by, bz))
+    return depth
+
+
 @compiled(inline=True)
 def _moved_along(pose: Array, position: float, prismatic: bool, result: Array) -> None:
     """Turn a pose (3+, 4) about its own z axis, or slide it along."""
@@ -136,16 +180,24 @@ def _moved_along(pose: Array, position: float, prismatic: bool, result: Array) -
 
 
 @compiled()
-def _close(model: HandModel, grid: Field, T_object_rest: Array, touch_m: float) -> Array:
+def _close(
+    model: HandModel, grid: Field, T_object_palm: Array, T_object_rest: Array, touch_m: float,
+    palm_depth_m: float,
+) -> Array:  # fmt: skip
     """Joint positions (n, F, M) of fingers whose first links rest at (n, F, 4, 4)."""
     fingers, longest = model.chains.links.shape
     positions = np.zeros((len(T_object_rest), fingers, longest))
     poses, gaps = np.empty((longest, 3, 4)), np.empty(len(model.points))
+    travel = np.empty(longest)
     for n in range(len(T_object_rest)):
         for finger in range(fingers):
-            _close_finger(
-                model, grid, finger, T_object_rest[n, finger], touch_m, poses, gaps,
+            stage = _close_finger(
+                model, grid, finger, T_object_rest[n, finger], touch_m, poses, gaps, travel,
                 positions[n, finger],
+            )  # fmt: skip
+            _leave_palm(
+                model, finger, T_object_palm[n], T_object_rest[n, finger], stage, palm_depth_m,
+                poses, travel, positions[n, finger],
             )  # fmt: skip
     return positions
 
@@ -153,12 +205,16 @@ def _close(model: HandModel, grid: Field, T_object_rest: Array, touch_m: float) 
 @compiled()
 def _close_finger(
     model: HandModel, grid: Field, finger: int, T_object_rest: Array, touch_m: float,
-    poses: Array, gaps: Array, positions: Array,
-) -> None:  # fmt: skip
-    """Close one finger; `poses` (M, 3, 4) and `gaps` (n,) are overwritten, `positions` (M,) set."""
+    poses: Array, gaps: Array, travel: Array, positions: Array,
+) -> int:  # fmt: skip
+    """Close one finger, and return the number of stopped joints before its last motion.
+
+    `poses` (M, 3, 4) and `gaps` (n,) are overwritten; `positions` (M,) and `travel` (M,), of each
+    stage in units of its rates, are set.
+    """
     chains = model.chains
     count, rates = chains.counts[finger], chains.rates[finger]
-    travel = np.zeros(count)  # of each stage, in units of its rates
+    travel[:] = 0.0
     stage = 0
     for step_number in range(MAX_STEPS):
         _set_positions(model, finger, travel, positions)
@@ -184,6 +240,42 @@ def _close_finger(
         travel[stage] += step
         _narrow_gaps(model, finger, stage, step, gaps)
     _set_positions(model, finger, travel, positions)
+    _set_poses(model, finger, T_object_rest, positions, poses)
+    last: int = min(stage, count - 1)
+    return last
+
+
+@compiled()
+def _leave_palm(
+    model: HandModel, finger: int, T_object_palm: Array, T_object_rest: Array, stage: int,
+    palm_depth_m: float, poses: Array, travel: Array, positions: Array,
+) -> None:  # fmt: skip
+    """Take the motions of a finger back, the last one first, if its tip is too deep in the palm.
+
+    Half of the depth remains, since the finer check of a grasp finds deeper points.
+    """
+    chains = model.chains
+    tip = chains.counts[finger] - 1
+    link = chains.links[finger, tip]
+    if not model.ends_at_palm:
+        return
+    if overlap(model, link, poses[tip], PALM, T_object_palm) <= palm_depth_m:
+        return
+    for taken_back in range(stage, -1, -1):
+        free, whole = 0.0, travel[taken_back]
+        for halving in range(HALVINGS):
+            travel[taken_back] = (free + 0.5**halving) * whole if halving else 0.0
+            _set_positions(model, finger, travel, positions)
+            _set_poses(model, finger, T_object_rest, positions, poses)
+            depth_m = overlap(model, link, poses[tip], PALM, T_object_palm)
+            if depth_m <= palm_depth_m / 2.0:
+                free = travel[taken_back] / whole if whole > 0.0 else 0.0
+            elif halving == 0:
+                break
+        else:
+            travel[taken_back] = free * whole
+            _set_positions(model, finger, travel, positions)
+            return
 
 
 @compiled()
@@ -210,9 +302,10 @@ def _narrow_gaps(model: HandModel, finger: int, stage: int, step: float, gaps: A
 def _set_positions(model: HandModel, finger: int, travel: Array, positions: Array) -> None:
     """Joint positions after the travel of each stage; joints wait at their limits."""
     chains = model.chains
-    for place in range(len(travel)):
+    count = chains.counts[finger]
+    for place in range(count):
         position = 0.0
-        for stage in range(len(travel)):
+        for stage in range(count):
             position += chains.rates[finger, stage, place] * travel[stage]
         position += chains.open[finger, place]
         lower, upper = chains.limits[finger, place]

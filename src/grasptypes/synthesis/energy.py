@@ -16,7 +16,7 @@ from grasptypes.compiled import compiled
 from grasptypes.poses import inverse
 from grasptypes.settings.synthesis import EnergySettings
 from grasptypes.synthesis.candidates import Demonstration
-from grasptypes.synthesis.closing import moved
+from grasptypes.synthesis.closing import moved, overlap
 from grasptypes.synthesis.fields import Field, distance, field_at, slope
 from grasptypes.synthesis.hand_model import HandModel
 from grasptypes.synthesis.scene import GraspScene
@@ -169,27 +169,5 @@ def _closeness(model: HandModel, grid: Field, poses: Array) -> tuple[Array, Arra
                 x, y, z = moved(poses[n, link], model.points, index)
                 gaps[n, link] = min(gaps[n, link], distance(grid, x, y, z))
         for link, other in model.pairs:
-            depth[n] = max(depth[n], _overlap(model, poses[n], link, other))
+            depth[n] = max(depth[n], overlap(model, link, poses[n, link], other, poses[n, other]))
     return gaps, depth
-
-
-@compiled()
-def _overlap(model: HandModel, poses: Array, link: int, other: int) -> float:
-    """Depth of a link's deepest point in another link, 0 if they do not overlap."""
-    pose, other_pose = poses[link], poses[other]
-    cx, cy, cz = moved(pose, model.centres, link)
-    ox, oy, oz = moved(other_pose, model.centres, other)
-    reach = model.radii[link] + model.radii[other]
-    if (cx - ox) ** 2 + (cy - oy) ** 2 + (cz - oz) ** 2 > reach * reach:
-        return 0.0
-    depth = 0.0
-    for index in range(model.starts[link], model.starts[link + 1]):
-        x, y, z = moved(pose, model.points, index)
-        if (x - ox) ** 2 + (y - oy) ** 2 + (z - oz) ** 2 > model.radii[other] ** 2:
-            continue
-        x, y, z = x - other_pose[0, 3], y - other_pose[1, 3], z - other_pose[2, 3]
-        bx = other_pose[0, 0] * x + other_pose[1, 0] * y + other_pose[2, 0] * z
-        by = other_pose[0, 1] * x + other_pose[1, 1] * y + other_pose[2, 1] * z
-        bz = other_pose[0, 2] * x + other_pose[1, 2] * y + other_pose[2, 2] * z
-        depth = max(depth, -distance(field_at(model.grids, model.grid_of_link[other]), bx, by, bz))
-    return depth

@@ -86,7 +86,7 @@ class Motors:
             whole, left = np.abs(finger.rates[[0, stage]]).sum(axis=1)
             share = whole / left
             speeds[joints] = motors.closing_speed_rad_s * (finger.rates[stage] * share)
-            moves[joints[stage:]] = True
+            moves[joints] = finger.rates[stage] != 0.0
             follows[joints[stage + 1 :]] = not hand.direct
         moves_on = np.where(speeds < 0.0, positions, np.maximum(self._reached, positions))
         self._reached = np.where(moves, moves_on, self._reached)
@@ -95,7 +95,7 @@ class Motors:
         closing = np.minimum(speeds, (stop - positions) / self._interval_s)
         withstands = ~moves | (way > DRIVEN_BACK) | (positions > stop)
         force_n = np.where(withstands, motors.passive_force_n, motors.fingertip_force_n)
-        force_n[follows] = 0.0
+        force_n[follows & moves] = 0.0
         return np.where(withstands, way / self._interval_s, closing), force_n * self._levers
 
     def _tip_levers(self, positions: Array) -> Array:

@@ -111,7 +111,7 @@ class Physics:
         pybullet.resetSimulation(physicsClientId=client)
         pybullet.setPhysicsEngineParameter(
             fixedTimeStep=settings.timestep_s,
-            numSolverIterations=settings.solver_iterations,
+            numSolverIterations=self._hand.solver_iterations,
             deterministicOverlappingPairs=1,
             physicsClientId=client,
         )
@@ -219,11 +219,14 @@ class Physics:
                 *([0.0, 0.0, 1.0], [0.0, 0.0, 0.0], [0.0, 0.0, 0.0]),
                 physicsClientId=client,
             )
+            ratio = rates[stage] / rates[place]
+            offset = described.open[stage] - ratio * described.open[place]
             pybullet.changeConstraint(
                 gear,
-                gearRatio=-rates[stage] / rates[place],
+                gearRatio=-ratio,
                 erp=settings.gear_correction,
                 maxForce=settings.gear_torque_nm,
+                **({"relativePositionTarget": offset} if offset and not stage else {}),
                 physicsClientId=client,
             )
             gears.append(gear)

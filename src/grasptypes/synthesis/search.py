@@ -95,8 +95,8 @@ def search_session(
     """
     targets = draw_targets(demonstration, settings.energy, draw)
     ranges = scene.hand.grips.named(demonstration.grip).shape
-    cost, touch_m = CostFunction(scene, targets, ranges, settings), settings.closing.touch_m
-    hands = draw_candidates(scene, demonstration, settings.candidates, touch_m, draw)
+    cost = CostFunction(scene, targets, ranges, settings)
+    hands = draw_candidates(scene, demonstration, settings.candidates, settings.closing, draw)
     found = cost.evaluate(hands)
     if not np.isfinite(found.energy).any():
         found = cost.evaluate(hands, every=True)
@@ -112,11 +112,11 @@ def refine(cost: CostFunction, parents: RankedGrasps, draw: np.random.Generator)
     All degrees of freedom vary, and yet every grasp touches the object, which gradient steps in
     joint space would not ensure.
     """
-    how, touch_m = cost.settings.refinement, cost.settings.closing.touch_m
+    how, closing = cost.settings.refinement, cost.settings.closing
     scale = 1.0
     for _ in range(how.rounds):
         T_object_hand, preshape = _varied(parents.hands, how, scale, draw)
-        children = cost.evaluate(close_fingers(cost.scene, T_object_hand, preshape, touch_m))
+        children = cost.evaluate(close_fingers(cost.scene, T_object_hand, preshape, closing))
         energy = np.column_stack([parents.energy, children.energy.reshape(-1, how.children)])
         winner = energy.argmin(axis=1)
         row = np.arange(len(winner))
