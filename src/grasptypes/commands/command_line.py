@@ -10,10 +10,10 @@ from collections.abc import Sequence
 from concurrent.futures.process import BrokenProcessPool
 from typing import NoReturn
 
-from grasptypes.commands import plan, predict
-from grasptypes.errors import InputError
+from grasptypes.commands import hand, plan, predict
+from grasptypes.errors import InputError, InputErrors
 
-COMMANDS = {"predict": predict, "plan": plan}
+COMMANDS = {"predict": predict, "plan": plan, "hand": hand}
 
 
 class _Parser(argparse.ArgumentParser):
@@ -47,6 +47,8 @@ def main(arguments: Sequence[str] | None = None) -> None:
         sys.stdout.write(COMMANDS[args.command].run(args))
     except InputError as error:
         sys.exit(f"error: {error}")
+    except InputErrors as several:
+        sys.exit("\n".join(f"error: {error}" for error in several.errors))
     except OSError as error:
         where = f"{error.filename}: " if error.filename else ""
         sys.exit(f"error: {where}{error.strerror or error}")
