@@ -6,6 +6,7 @@ import tempfile
 from pathlib import Path
 
 import command_cases
+import hand_cases
 import map_cases
 import mesh_cases
 import params_cases
@@ -23,6 +24,7 @@ MODULES = (
     weights_cases,
     picture_cases,
     command_cases,
+    hand_cases,
     plan_cases,
 )
 CASES: list[Case] = [case for module in MODULES for case in module.CASES]

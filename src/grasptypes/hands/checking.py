@@ -25,13 +25,14 @@ ANGLE_RAD = 0.09
 
 def check_hand(hand: Hand) -> list[str]:
     """Everything that looks wrong with a hand, one line each; empty if nothing does."""
-    return [
+    found = [
         *_links(hand),
         *_preshapes(hand),
         *(line for finger in hand.fingers for line in _finger(hand, finger)),
         *_sides(hand),
-        *_collisions(hand),
     ]
+    # Links of a hand that is wrong otherwise may overlap for that reason.
+    return found or list(_collisions(hand))
 
 
 def open_states(hand: Hand, preshapes: Sequence[Sequence[float]]) -> HandStates:
@@ -81,6 +82,7 @@ def _finger(hand: Hand, finger: Finger) -> Iterator[str]:
     for name, start, (low, high) in zip(_names(hand, finger), finger.open, limits, strict=True):
         if not low - 1e-3 <= start <= high + 1e-3:
             yield f"joint {name}: opens at {start:g}, outside its limits {low:.4g} to {high:.4g}"
+            return
     state = open_states(hand, [preshapes(hand)[0]])
     column = hand.fingers.index(finger)
     before = hand.fingertips(state.joint_positions)[0, column]

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from functools import cache
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
+from xml.etree import ElementTree
 
 import manifold3d
 import numpy as np
@@ -87,6 +89,8 @@ class _Reader:
         if not self._path.is_file():
             raise InputError(self._path, "", "no such file")
         with parsing(self._path, "cannot be read as a URDF"):
+            # yourdfpy repairs broken XML without a word, and does not read `contact`.
+            self._frictions = _frictions(ElementTree.parse(self._path).getroot())
             self._robot = yourdfpy.URDF.load(
                 str(self._path), build_scene_graph=False, load_meshes=False
             ).robot
@@ -116,6 +120,7 @@ class _Reader:
             )
             if T_axis is not None:
                 turned[index + 1] = T_axis
+        self._check_chains(joints, moving)
         merged = self._rigidly_attached(carried)
         links = [
             self._link(name, index, merged[index], turned.get(index))
@@ -180,6 +185,15 @@ class _Reader:
         longest = max(map(len, chains))
         rows = [chain[place] for place in range(longest) for chain in chains if place < len(chain)]
         return [*first, *rows]
+
+    def _check_chains(self, joints: Sequence[Joint], moving: Sequence[str]) -> None:
+        """Each closing joint must sit on the closing link before it; raises InputError."""
+        for name, finger in self._described.fingers.items():
+            for before, joint in pairwise(finger.joints):
+                if joints[moving.index(joint)].parent != moving.index(before) + 1:
+                    message = f"'{joint}' is not on the link of '{before}', which comes before it"
+                    key = f"fingers.{name}.joints"
+                    raise InputError(self._folder / DESCRIPTION, key, message)
 
     def _rest(self, name: str, carried: dict[str, int]) -> tuple[int, Array]:
         """The link that carries a joint, and the pose of the joint's child in it at zero."""
@@ -273,8 +287,8 @@ class _Reader:
                 masses.append(float(urdf_link.inertial.mass))
                 centres.append(T_com[:3, 3])
                 inertias.append(T_com[:3, :3] @ urdf_link.inertial.inertia @ T_com[:3, :3].T)
-        if not masses:
-            raise InputError(self._path, f"link {name}", "has no mass")
+        if not masses or min(masses) <= 0:
+            raise InputError(self._path, f"link {name}", "has no mass, or a negative one")
         if not parts:
             raise InputError(self._path, f"link {name}", "has no collision shape")
         mass = sum(masses)
@@ -283,11 +297,8 @@ class _Reader:
         for m, c, moment in zip(masses, centres, inertias, strict=True):
             r = c - centre
             inertia = inertia + moment + m * (r @ r * np.eye(3) - np.outer(r, r))
-        return Link(name, tuple(parts), tuple(visuals), mass, centre, inertia, self._friction(name))
-
-    def _friction(self, name: str) -> float:
-        """Friction of a link: yourdfpy does not read `contact`, so it is read from the text."""
-        return _frictions(self._path).get(name, 1.0)
+        friction = self._frictions.get(name, 1.0)
+        return Link(name, tuple(parts), tuple(visuals), mass, centre, inertia, friction)
 
     def _part(self, member: str, number: int, shape: Any, T: Array) -> ConvexPart:
         mesh_name, vertices, faces = self._shape(member, shape, T, exact_hull=True)
@@ -316,6 +327,8 @@ class _Reader:
                 )
             with parsing(path, "cannot be read as a mesh"):
                 mesh = trimesh.load_mesh(path, process=False, maintain_order=True)
+            if not len(mesh.faces):
+                raise InputError(path, "", "has no faces: a triangle mesh is needed")
             scale = geometry.mesh.scale
             vertices = np.asarray(mesh.vertices, dtype=np.float64)
             faces = np.asarray(mesh.faces, dtype=np.int64)
@@ -376,13 +389,11 @@ def _convex(vertices: Array, faces: NDArray[np.int64]) -> tuple[Array, NDArray[n
     return mesh.vert_properties[:, :3], mesh.tri_verts.astype(np.int64)
 
 
-@cache
-def _frictions(path: Path) -> dict[str, float]:
-    from xml.etree import ElementTree
-
+def _frictions(robot: ElementTree.Element) -> dict[str, float]:
+    """Friction of the links that state one."""
     found = {}
-    for link in ElementTree.parse(path).getroot().findall("link"):
+    for link in robot.findall("link"):
         value = link.find("contact/lateral_friction")
         if value is not None:
-            found[str(link.get("name"))] = float(value.get("value", "1"))
+            found[link.attrib["name"]] = float(value.attrib["value"])
     return found
