@@ -14,6 +14,7 @@ from weights_cases import Code
 from grasptypes.exchange.dexgraspbench import read_grasp
 from grasptypes.exchange.graspit_world import read_world
 from grasptypes.exchange.multigrippergrasp import read_grasps
+from grasptypes.hands.reading import load_hand
 from grasptypes.versions.checkout import copy_checkout
 
 FOLDER = {"params.yaml": (ROOT / "params.yaml").read_bytes()}
@@ -29,7 +30,13 @@ def asked(what: str, arguments: tuple[str, ...], *names: str, **models: Content)
 
 def exchanged(what: str, name: str, content: Content, read: Callable, *names: str) -> Case:
     """A file of another program."""
-    return Case("exchange file", what, {name: content}, library(read, name), (name, *names))
+    return Case(
+        "exchange file",
+        what,
+        {name: content},
+        library(read, name, load_hand("barrett")),
+        (name, *names),
+    )
 
 
 def with_code(path: Path) -> None:

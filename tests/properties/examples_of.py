@@ -4,8 +4,7 @@ import numpy as np
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 from scipy.spatial.transform import Rotation
-
-from grasptypes.hand import kinematics
+from tests.unit.barrett import BARRETT
 
 
 def numbers(low, high, shape):
@@ -30,5 +29,5 @@ def within(draw, limits_rad, count=1):
 
 
 def hands(count=1):
-    """Joint angles (count, 8) that the hand can take."""
-    return within(kinematics.JOINT_LIMITS_RAD, count)
+    """Joint angles (count, 8) that the BarrettHand can take."""
+    return within(BARRETT.joint_limits, count)

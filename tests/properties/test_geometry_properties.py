@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from scipy.spatial.transform import RigidTransform
 
 from grasptypes.exchange.records import from_position_quaternion, to_position_quaternion
-from grasptypes.hand import configuration
+from grasptypes.hands import configuration
 from grasptypes.objects.distance_grid import DistanceGrid
 from grasptypes.poses import inverse
 
@@ -36,10 +36,10 @@ def test_poses_come_back_from_quaternions(T):
 
 
 @given(poses(2), numbers(-3, 3, (2, 4)), st.integers(0, 99))
-def test_hand_configurations_come_back(T, dofs_rad, rank):
-    back = configuration.unpack(configuration.pack(rank, T, dofs_rad))
+def test_hand_configurations_come_back(T, dofs, rank):
+    back = configuration.unpack(configuration.pack(rank, T, dofs))
     np.testing.assert_array_equal(back.T_object_hand, T)
-    np.testing.assert_array_equal(back.dofs_rad, dofs_rad)
+    np.testing.assert_array_equal(back.dofs, dofs)
     assert (back.rank_index == rank).all()
 
 

@@ -5,9 +5,9 @@ import pandas as pd
 from examples_of import numbers
 from hypothesis import given
 from hypothesis import strategies as st
+from tests.unit.barrett import BARRETT
 
-from grasptypes.hand import kinematics
-from grasptypes.labels.contacts import FINGER_LINKS, Contacts
+from grasptypes.labels.contacts import Contacts
 from grasptypes.labels.grasp_type import (
     GRASP_TYPES,
     Measures,
@@ -19,7 +19,7 @@ from grasptypes.labels.grasp_type import (
 from grasptypes.labels.samples import COUNTS, LABELS, PROBABILITIES, samples_from_counts
 from grasptypes.settings.grasp_types import Thresholds
 
-LINKS = len(kinematics.LINK_NAMES)
+LINKS = len(BARRETT.link_names)
 
 
 @st.composite
@@ -90,23 +90,25 @@ def test_the_order_of_grasps_does_not_count(drawn, order):
     )
 
 
-@given(contacts(), st.floats(0.1, 10), st.permutations(FINGER_LINKS))
+@given(contacts(), st.floats(0.1, 10), st.permutations(BARRETT.finger_links))
 def test_shares_are_shares_whatever_the_force_and_the_finger(drawn, factor, order):
-    share = sideways_share(drawn)
+    share = sideways_share(BARRETT, drawn)
     assert ((share >= 0) & (share <= 1 + 1e-12)).all()
     stronger = drawn._replace(weight=drawn.weight * factor)
-    np.testing.assert_allclose(sideways_share(stronger), share, atol=1e-12)
+    np.testing.assert_allclose(sideways_share(BARRETT, stronger), share, atol=1e-12)
     weight, push = drawn.weight.copy(), drawn.push.copy()
-    weight[:, list(FINGER_LINKS)] = drawn.weight[:, order]
-    push[:, list(FINGER_LINKS)] = drawn.push[:, order]
+    weight[:, list(BARRETT.finger_links)] = drawn.weight[:, order]
+    push[:, list(BARRETT.finger_links)] = drawn.push[:, order]
     swapped = drawn._replace(weight=weight, push=push)
-    np.testing.assert_allclose(sideways_share(swapped), share, atol=1e-12)
+    np.testing.assert_allclose(sideways_share(BARRETT, swapped), share, atol=1e-12)
 
 
 @given(contacts(), st.integers(-8, 8))
 def test_spans_grow_with_the_hand(drawn, power):
     larger = drawn._replace(position_m=drawn.position_m * 2.0**power)
-    np.testing.assert_allclose(fingertip_span(larger), fingertip_span(drawn) * 2.0**power)
+    np.testing.assert_allclose(
+        fingertip_span(BARRETT, larger), fingertip_span(BARRETT, drawn) * 2.0**power
+    )
 
 
 @given(st.lists(st.integers(0, 20), min_size=6, max_size=6).filter(any), st.integers(2, 9))

@@ -6,19 +6,20 @@ from pathlib import Path
 import numpy as np
 import trimesh
 from numpy.typing import ArrayLike
+from tests.unit.barrett import BARRETT
 from tests.unit.settings import PARAMS
 
 from grasptypes.objects.distance_grid import DistanceGrid
 from grasptypes.objects.object_files import COLLISION, Properties, write_collision
 from grasptypes.objects.object_geometry import ObjectGeometry
 from grasptypes.synthesis.candidates import Demonstration
+from grasptypes.synthesis.closing import close_fingers
 from grasptypes.synthesis.fields import field
 from grasptypes.synthesis.hand_model import hand_model
 from grasptypes.synthesis.scene import GraspScene
 
-ROOT = Path(__file__).parents[2]
-URDF = ROOT / "assets" / "barrett_hand" / "barrett_hand.urdf"
-TOUCH_M = PARAMS.synthesis.closing.touch_m
+CLOSING = PARAMS.synthesis.closing
+TOUCH_M = CLOSING.touch_m
 RADIUS_M = 0.03
 
 
@@ -30,10 +31,11 @@ def ball() -> trimesh.Trimesh:
 @cache
 def scene_of(size: str = "ball") -> GraspScene:
     """The coarse hand and the ball, or a flat box."""
-    hand = hand_model(0.006, 0.012, 0.004, 0.02)
+    model = hand_model(BARRETT, 0.006, 0.012, 0.004, 0.02)
     mesh = ball() if size == "ball" else trimesh.creation.box((0.2, 0.05, 0.05))
     grid = DistanceGrid.from_mesh(mesh.vertices, mesh.faces, 0.002, 0.02)
-    return GraspScene(hand, field(grid), np.zeros(3), RADIUS_M, np.asarray(mesh.vertices))
+    surface_m = np.asarray(mesh.vertices)
+    return GraspScene(BARRETT, model, field(grid), np.zeros(3), RADIUS_M, surface_m)
 
 
 def palm_at(distance_m: float) -> np.ndarray:
@@ -41,6 +43,15 @@ def palm_at(distance_m: float) -> np.ndarray:
     T = np.diag([1.0, -1.0, -1.0, 1.0])
     T[2, 3] = distance_m
     return T[None]
+
+
+def closed(
+    T_object_hand: ArrayLike, *spreads_rad: float, scene: GraspScene | None = None
+) -> np.ndarray:
+    """Joint positions (n, 8) of hands at poses (n, 4, 4) that closed with these spreads."""
+    preshape = np.array(spreads_rad)[:, None]
+    hands = close_fingers(scene or scene_of(), np.asarray(T_object_hand), preshape, CLOSING)
+    return hands.joint_positions
 
 
 def ball_shown(grip: str = "enclose") -> Demonstration:

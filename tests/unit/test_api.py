@@ -86,7 +86,7 @@ def test_a_grasp_carries_its_pose_and_can_be_labelled_again(tmp_path):
         assert grasp.grasp_type == (shape if grasp.reason == "valid" else "Invalid")
         rotation = grasp.T_object_hand.rotation.as_matrix()
         np.testing.assert_allclose(rotation @ rotation.T, np.eye(3), atol=1e-9)
-        assert grasp.joint_angles_rad.shape == (8,)
+        assert grasp.joint_positions.shape == (8,)
     for wrong in (("fly", []), ("use", ["Hug"])):
         with pytest.raises(grasptypes.InputError, match="unknown; allowed"):
             planner.plan(can, *wrong)

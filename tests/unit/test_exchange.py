@@ -9,6 +9,7 @@ import numpy as np
 import pandas as pd
 import pytest
 from scipy.spatial.transform import RigidTransform, Rotation
+from tests.unit.barrett import BARRETT
 
 from grasptypes.errors import InputError
 from grasptypes.exchange import dexgraspbench, graspit_world, multigrippergrasp
@@ -18,7 +19,7 @@ from grasptypes.exchange.records import (
     from_position_quaternion,
     to_position_quaternion,
 )
-from grasptypes.hand import configuration, kinematics
+from grasptypes.hands import configuration
 from grasptypes.labels.grasp_type import GRASP_TYPES
 from grasptypes.labels.published import read_published
 
@@ -27,20 +28,22 @@ def hands(count=3):
     draw = np.random.default_rng(0)
     turns = Rotation.random(count, rng=draw)
     T = RigidTransform.from_components(draw.uniform(-0.2, 0.2, (count, 3)), turns)
-    angles = kinematics.couple(draw.uniform(0, 2, (count, 4)))
+    angles = BARRETT.couple(draw.uniform(0, 2, (count, 4)))
     angles[0, 6] += 0.1  # one fingertip that its clutch has let go
-    return PosedHands("mug", T, angles, np.array([True] * (count - 1) + [False]))
+    return PosedHands("mug", BARRETT, T, angles, np.array([True] * (count - 1) + [False]))
 
 
 def assert_same(first, second, atol):
     assert first.object_name == second.object_name
+    assert first.hand is second.hand
     poses = [hands.T_object_hand.as_matrix() for hands in (first, second)]
     np.testing.assert_allclose(*poses, atol=atol)
-    np.testing.assert_allclose(first.joint_angles_rad, second.joint_angles_rad, atol=atol)
+    np.testing.assert_allclose(first.joint_positions, second.joint_positions, atol=atol)
 
 
 def one(hands, index):
-    return PosedHands(hands.object_name, *(values[index : index + 1] for values in hands[1:]))
+    rows = (values[index : index + 1] for values in hands[2:])
+    return PosedHands(hands.object_name, hands.hand, *rows)
 
 
 def test_position_and_quaternion_with_w_first():
@@ -57,7 +60,7 @@ def test_position_and_quaternion_with_w_first():
 @pytest.mark.parametrize("index", [0, 1])
 def test_graspit_world(tmp_path, index):
     graspit_world.write_world(tmp_path / "w.xml", hands(), index, "models/objects/mug.xml")
-    assert_same(graspit_world.read_world(tmp_path / "w.xml"), one(hands(), index), 1e-8)
+    assert_same(graspit_world.read_world(tmp_path / "w.xml", BARRETT), one(hands(), index), 1e-8)
 
 
 def test_graspit_world_as_graspit_writes_it(tmp_path):
@@ -73,11 +76,11 @@ def test_graspit_world_as_graspit_writes_it(tmp_path):
           <transform><fullTransform>(+1 0 0 0)[+100 +20 -50]</fullTransform></transform></robot>
         </world>"""
     )
-    world = graspit_world.read_world(tmp_path / "w.xml")
+    world = graspit_world.read_world(tmp_path / "w.xml", BARRETT)
     assert world.object_name == "glass"
     np.testing.assert_allclose(world.T_object_hand[0].translation, [0, 0.02, -0.05], atol=1e-12)
     expected = [0.5, 0.5, 0.9, 0.6, 0.9, 0.3, 0.3, 0.3]
-    np.testing.assert_allclose(world.joint_angles_rad[0], expected)
+    np.testing.assert_allclose(world.joint_positions[0], expected)
 
 
 @pytest.mark.parametrize(
@@ -94,12 +97,12 @@ def test_bad_graspit_world(tmp_path, old, new, message):
     graspit_world.write_world(path, hands(), 0, "mug.xml")
     path.write_text(path.read_text().replace(old, new))
     with pytest.raises(InputError, match=message):
-        graspit_world.read_world(path)
+        graspit_world.read_world(path, BARRETT)
 
 
 def test_multigrippergrasp(tmp_path):
     multigrippergrasp.write_grasps(tmp_path / "g.json", hands())
-    read = multigrippergrasp.read_grasps(tmp_path / "g.json")
+    read = multigrippergrasp.read_grasps(tmp_path / "g.json", BARRETT)
     assert_same(read, hands(), 1e-12)
     assert read.held.tolist() == [True, True, False]
 
@@ -111,13 +114,13 @@ def test_multigrippergrasp_joints_in_another_order(tmp_path):
     content["joint_names"] = content["joint_names"][::-1]
     content["dofs"] = [row[::-1] for row in content["dofs"]]
     path.write_text(json.dumps(content))
-    assert_same(multigrippergrasp.read_grasps(path), hands(), 1e-12)
+    assert_same(multigrippergrasp.read_grasps(path, BARRETT), hands(), 1e-12)
 
 
 @pytest.mark.parametrize(
     ("key", "value", "message"),
     [
-        ("gripper", "fetch_gripper", "not the BarrettHand"),
+        ("gripper", "fetch_gripper", "is not BarrettHand"),
         ("dofs", [[1.0]], "8 numbers"),
         ("pose", None, "pose: is missing"),
     ],
@@ -128,19 +131,19 @@ def test_bad_multigrippergrasp(tmp_path, key, value, message):
     content = {**json.loads(path.read_text()), key: value}
     path.write_text(json.dumps({k: v for k, v in content.items() if v is not None}))
     with pytest.raises(InputError, match=message):
-        multigrippergrasp.read_grasps(path)
+        multigrippergrasp.read_grasps(path, BARRETT)
 
 
 def test_dexgraspbench(tmp_path):
     path = tmp_path / "0.npy"
     dexgraspbench.write_grasp(path, hands(), 0, 1.15, "assets/object/mug")
-    assert_same(dexgraspbench.read_grasp(path), one(hands(), 0), 1e-12)
+    assert_same(dexgraspbench.read_grasp(path, BARRETT), one(hands(), 0), 1e-12)
     content = np.load(path, allow_pickle=True).item()
     assert content["obj_scale"] == 1.15
     before, grasp, after = (content[f"{name}_qpos"] for name in ("pregrasp", "grasp", "squeeze"))
     assert (before[9:] < grasp[9:]).all()
     assert (after[9:] >= grasp[9:]).all()
-    assert (after[7:] <= kinematics.JOINT_LIMITS_RAD[:, 1]).all()
+    assert (after[7:] <= BARRETT.joint_limits[:, 1]).all()
 
 
 def test_dexgraspbench_runs_no_code(tmp_path):
@@ -151,7 +154,7 @@ def test_dexgraspbench_runs_no_code(tmp_path):
     path = tmp_path / "0.npy"
     np.save(path, np.array({"grasp_qpos": Trap()}, dtype=object), allow_pickle=True)
     with pytest.raises(InputError, match="not an array"):
-        dexgraspbench.read_grasp(path)
+        dexgraspbench.read_grasp(path, BARRETT)
     assert not (tmp_path / "trapped").exists()
 
 
@@ -159,13 +162,13 @@ def test_dexgraspbench_runs_no_code(tmp_path):
 def test_not_dexgraspbench(tmp_path, content):
     (tmp_path / "0.npy").write_bytes(content)
     with pytest.raises(InputError, match="not a DexGraspBench grasp"):
-        dexgraspbench.read_grasp(tmp_path / "0.npy")
+        dexgraspbench.read_grasp(tmp_path / "0.npy", BARRETT)
 
 
 def test_published_csv(tmp_path):
     mine = hands()
-    mine = mine._replace(joint_angles_rad=kinematics.couple(mine.joint_angles_rad[:, [0, 2, 3, 4]]))
-    dofs = mine.joint_angles_rad[:, [0, 2, 3, 4]]
+    mine = mine._replace(joint_positions=BARRETT.couple(mine.joint_positions[:, [0, 2, 3, 4]]))
+    dofs = mine.joint_positions[:, [0, 2, 3, 4]]
     table = pd.DataFrame(
         {
             "object": "mug",
@@ -183,7 +186,7 @@ def test_published_csv(tmp_path):
     read = read_published(tmp_path / "g.csv")
     assert read.grasp_type_index.tolist() == [6, 1, 7]
     assert read["rank"].tolist() == [1, 1, 1]
-    back = posed_hands(read, "mug")
+    back = posed_hands(read, "mug", BARRETT)
     assert_same(back, mine, 1e-8)
     assert back.held.tolist() == [True, True, False]
 
@@ -205,10 +208,10 @@ def test_the_authors_own_file(tmp_path):
 
 def test_a_tip_pressed_behind_its_finger_counts_as_coupled() -> None:
     """GraspIt!'s clutch lets a tip go ahead, never back."""
-    behind = kinematics.couple(np.radians([0.0, 90.0, 90.0, 90.0]))
+    behind = BARRETT.couple(np.radians([0.0, 90.0, 90.0, 90.0]))
     behind[5] -= 0.02
     behind[6] += 0.02
-    values = graspit_world.dof_values(behind)
+    values = graspit_world.dof_values(BARRETT, behind)
     assert values[2] == 0.0
     assert values[1] == behind[2]
     assert values[5] == 1.0

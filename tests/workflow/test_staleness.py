@@ -23,6 +23,7 @@ from grasptypes.errors import InputError
 from grasptypes.settings.params import Params
 
 pytestmark = pytest.mark.slow
+BARRETT = "src/grasptypes/hands/data/barrett"
 CONTEXT = multiprocessing.get_context("forkserver")
 CONTEXT.set_forkserver_preload(
     ["snakemake.cli", "dvc.cli", "dvc.commands.status", "pandera.pandas"]
@@ -144,8 +145,10 @@ def test_every_module_reruns_the_rules_that_import_it(workflow: Workflow) -> Non
 @pytest.mark.parametrize(
     ("asset", "rule"),
     [
-        ("assets/barrett_hand/barrett_hand.urdf", "synthesize_grasps"),
-        ("assets/barrett_hand/collision/distal_fingertip.obj", "synthesize_grasps"),
+        (f"{BARRETT}/hand.urdf", "synthesize_grasps"),
+        (f"{BARRETT}/hand.yaml", "synthesize_grasps"),
+        (f"{BARRETT}/grips.yaml", "synthesize_grasps"),
+        (f"{BARRETT}/collision/distal_fingertip.obj", "synthesize_grasps"),
         ("assets/published_labels.csv", "label_published"),
         ("src/grasptypes/objects/catalogue.yaml", "prepare_object"),
     ],

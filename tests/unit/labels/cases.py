@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from grasptypes.settings.grasp_types import ContactSettings, Thresholds
+from grasptypes.settings.grasp_types import ContactSettings, LabellingRule, Thresholds
 
 CONTACTS = ContactSettings(
     surface_spacing_m=0.008, patch_depth_m=0.002, reach_m=0.025, closing_weight=3.0
@@ -10,6 +10,7 @@ CONTACTS = ContactSettings(
 THRESHOLDS = Thresholds(
     palm_gap_m=0.020, small_diameter_m=0.050, sideways_share=0.05, large_span_m=0.080
 )
+RULE = LabellingRule(contacts=CONTACTS, thresholds=THRESHOLDS, finger_length_m=0.125)
 
 
 class Ball:

@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 import pytest
+from tests.unit.barrett import BARRETT
 from tests.unit.labels.cases import CONTACTS, THRESHOLDS, Ball
 
 from grasptypes.labels.agreement import (
@@ -92,7 +93,7 @@ def test_judge_leaves_out_what_has_no_type_configuration_or_object():
         }
     )
 
-    grasps = measure_published(table, {"ball": Ball(0.03)}, CONTACTS)
+    grasps = measure_published(table, BARRETT, {"ball": Ball(0.03)}, CONTACTS)
     assert grasps.objects.tolist() == ["ball"]
     assert grasps.labels.tolist() == [TYPES.index("Precision")]
     assert grasps.measures.palm_gap_m[0] == pytest.approx(0.07, abs=2e-3)
@@ -105,7 +106,7 @@ def test_judge_leaves_out_what_has_no_type_configuration_or_object():
 def test_landed_thresholds_agree_with_people():
     settings = read_params(ROOT / "params.yaml")
     rule = settings.grasp_types
-    grasps = labelled_grasps(os.environ, "none", settings.replay.object_scale, rule)
+    grasps = labelled_grasps(os.environ, BARRETT, "none", settings.replay.object_scale, rule)
     right = classify(grasps.measures, limits(rule.thresholds)) == grasps.labels
     by_object = pd.Series(right).groupby(grasps.objects).mean()
     assert len(by_object) == 11

@@ -3,14 +3,13 @@
 import numpy as np
 import pytest
 import trimesh
+from tests.unit.barrett import BARRETT
 from tests.unit.labels.cases import CONTACTS, Ball
 
-from grasptypes.hand import kinematics, shapes
-from grasptypes.hand.states import HandStates
+from grasptypes.hands.hand import PALM
+from grasptypes.hands.states import HandStates
+from grasptypes.hands.surface import surface_points
 from grasptypes.labels.contacts import (
-    DISTAL_LINKS,
-    FINGER_LINKS,
-    PALM,
     MeshDistance,
     closing_directions,
     find_contacts,
@@ -29,11 +28,11 @@ def pose(shift=(0.0, 0.0, 0.0), turn=UPRIGHT):
 
 
 def closed(spread=0.0, fingers=60.0):
-    return kinematics.couple(np.radians([[spread, fingers, fingers, fingers]]))
+    return BARRETT.couple(np.radians([[spread, fingers, fingers, fingers]]))
 
 
 def hands(T_object_hand, spread=0.0, fingers=60.0):
-    return HandStates(T_object_hand[None], closed(spread, fingers))
+    return HandStates(BARRETT, T_object_hand[None], closed(spread, fingers))
 
 
 def test_palm_gap_is_the_distance_to_the_palm_plate():
@@ -54,7 +53,7 @@ def test_contacts_do_not_depend_on_where_the_object_frame_is():
 
 def test_a_ball_is_pushed_from_both_sides_along_y_at_spread_zero():
     contacts = find_contacts(Ball(0.05, [0, 0, 0.09]), hands(pose()), SETTINGS)
-    first, _, third = contacts.push[0, list(DISTAL_LINKS), 1]
+    first, _, third = contacts.push[0, list(BARRETT.tip_links), 1]
     assert first < -0.5
     assert third > 0.5
 
@@ -70,21 +69,21 @@ def test_weight_falls_from_one_at_touch_to_zero_at_the_reach():
 
 def test_closing_directions_are_the_motion_of_closing_fingers():
     angles, step = np.radians([[30.0, 50.0, 60.0, 70.0]]), 1e-6
-    before, after = (kinematics.couple(angles + [[0, s, s, s]]) for s in (0.0, step))
+    before, after = (BARRETT.couple(angles + [[0, s, s, s]]) for s in (0.0, step))
     # A point of the proximal link, where the fingertip's own turn plays no part.
-    link = kinematics.LINK_NAMES.index("proximal_2")
-    T = kinematics.link_poses(before)
+    link = BARRETT.link_names.index("proximal_2")
+    T = BARRETT.link_poses(before)
     position = T[:, :, :3, 3] + 0.05 * T[:, :, :3, 0]
-    moved = kinematics.link_poses(after)[:, link, :3, :] @ [0.05, 0, 0, 1.0]
+    moved = BARRETT.link_poses(after)[:, link, :3, :] @ [0.05, 0, 0, 1.0]
     motion = (moved - position[:, link])[0]
-    direction = closing_directions(T, position)[0, link]
+    direction = closing_directions(BARRETT, T, position)[0, link]
     np.testing.assert_allclose(direction, motion / np.linalg.norm(motion), atol=1e-5)
 
 
 def test_palm_and_knuckles_do_not_close():
-    T = kinematics.link_poses(closed())
-    directions = closing_directions(T, T[:, :, :3, 3] + 0.01)
-    others = [link for link in range(9) if link not in FINGER_LINKS]
+    T = BARRETT.link_poses(closed())
+    directions = closing_directions(BARRETT, T, T[:, :, :3, 3] + 0.01)
+    others = [link for link in range(9) if link not in BARRETT.finger_links]
     assert not directions[:, others].any()
 
 
@@ -135,12 +134,12 @@ def test_unit_vectors_keep_their_direction_and_zero_stays_zero():
 
 @pytest.mark.parametrize("finger", [1, 2, 3])
 def test_both_links_of_a_finger_turn_about_its_base(finger):
-    T = kinematics.link_poses(kinematics.couple(np.radians([[40.0, 30.0, 50.0, 70.0]])))
+    T = BARRETT.link_poses(BARRETT.couple(np.radians([[40.0, 30.0, 50.0, 70.0]])))
     positions = np.random.default_rng(finger).normal(0, 0.1, (1, 9, 3))
-    directions = closing_directions(T, positions)
-    base = T[0, kinematics.LINK_NAMES.index(f"proximal_{finger}")]
+    directions = closing_directions(BARRETT, T, positions)
+    base = T[0, BARRETT.link_names.index(f"proximal_{finger}")]
     for kind in ("proximal", "distal"):
-        link = kinematics.LINK_NAMES.index(f"{kind}_{finger}")
+        link = BARRETT.link_names.index(f"{kind}_{finger}")
         moved = np.cross(base[:3, 2], positions[0, link] - base[:3, 3])
         np.testing.assert_allclose(directions[0, link], moved / np.linalg.norm(moved))
 
@@ -149,11 +148,11 @@ def test_contacts_are_the_weighted_means_of_the_points_near_each_link():
     centre, radius = np.array([0.02, -0.01, 0.1]), 0.045
     T = np.stack([pose(), pose([0.005, 0.01, -0.02])])
     angles = np.concatenate([closed(10, 50), closed(30, 70)])
-    found = find_contacts(Ball(radius, centre), HandStates(T, angles), SETTINGS)
-    surface = shapes.surface_points(SETTINGS.surface_spacing_m)
+    found = find_contacts(Ball(radius, centre), HandStates(BARRETT, T, angles), SETTINGS)
+    surface = surface_points(BARRETT, SETTINGS.surface_spacing_m)
     for n, T_object_hand in enumerate(T):
-        T_hand_link = kinematics.link_poses(angles[n])
-        closing = closing_directions(T_hand_link[None], found.position_m[n][None])[0]
+        T_hand_link = BARRETT.link_poses(angles[n])
+        closing = closing_directions(BARRETT, T_hand_link[None], found.position_m[n][None])[0]
         for link, T_link in enumerate(T_hand_link):
             points = surface.points_m[surface.link_index == link] @ T_link[:3, :3].T + T_link[:3, 3]
             offset = points + T_object_hand[:3, 3] - centre

@@ -3,11 +3,12 @@
 import numpy as np
 import pandas as pd
 import pytest
-from tests.unit.labels.cases import CONTACTS, THRESHOLDS, Ball
+from tests.unit.barrett import BARRETT
+from tests.unit.labels.cases import RULE, Ball
 
 from grasptypes.errors import InputError
-from grasptypes.hand import configuration, kinematics
-from grasptypes.labels.dataset import DATASET_SCHEMA, dataset_table, label_grasps, sample_table
+from grasptypes.hands import configuration
+from grasptypes.labels.dataset import dataset_schema, dataset_table, label_grasps, sample_table
 from grasptypes.labels.published import read_published
 from grasptypes.labels.samples import SAMPLE_SCHEMA
 
@@ -25,7 +26,7 @@ def grasps(valid=(True, True, False), name="ball"):
             "rank": [0, 3, 0],
             "energy": [-1.0, -2.0, -3.0],
             "hand_configuration": configuration.pack(0, T, dofs).tolist(),
-            "joint_angles_rad": kinematics.couple(dofs).tolist(),
+            "joint_angles_rad": BARRETT.couple(dofs).tolist(),
             "penetration_m": 0.001,
             "valid": list(valid),
             "reason": ["" if one else "dropped" for one in valid],
@@ -35,11 +36,11 @@ def grasps(valid=(True, True, False), name="ball"):
 
 
 def made(**changes):
-    return dataset_table([label_grasps(grasps(**changes), Ball(0.04), CONTACTS, THRESHOLDS)])
+    return dataset_table([label_grasps(grasps(**changes), BARRETT, Ball(0.04), RULE)], BARRETT)
 
 
 def test_every_row_is_complete_and_meets_the_schema():
-    table = DATASET_SCHEMA.validate(made())
+    table = dataset_schema(BARRETT).validate(made())
     assert not table.isna().any(axis=None)
     assert table.Index.tolist() == [0, 1, 2]
     assert table[["Intent", "Session"]].to_numpy().tolist() == [

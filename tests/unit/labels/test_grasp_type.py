@@ -3,12 +3,13 @@
 import numpy as np
 import pytest
 from scipy.spatial.transform import RigidTransform
+from tests.unit.barrett import BARRETT
 from tests.unit.labels.cases import CONTACTS, THRESHOLDS, Ball
 from tests.unit.settings import PARAMS
 
-from grasptypes.hand import kinematics
-from grasptypes.hand.states import HandStates
-from grasptypes.labels.contacts import DISTAL_LINKS, FINGER_LINKS, PALM, Contacts, find_contacts
+from grasptypes.hands.hand import PALM
+from grasptypes.hands.states import HandStates
+from grasptypes.labels.contacts import Contacts, find_contacts
 from grasptypes.labels.grasp import Grasp, label
 from grasptypes.labels.grasp_type import (
     TYPES,
@@ -129,47 +130,47 @@ def test_margin_is_the_share_to_the_nearest_threshold_that_mattered(changes, mar
 
 
 def contacts(push=(0.0, -1.0, 0.0), weight=1.0):
-    shape = (1, len(kinematics.LINK_NAMES))
+    shape = (1, len(BARRETT.link_names))
     pushes = np.broadcast_to(np.array(push, dtype=float), (*shape, 3)).copy()
     weights = np.full(shape, weight)
     return Contacts(np.zeros(shape), np.zeros((*shape, 3)), -pushes, pushes, weights)
 
 
 def test_sideways_share_is_the_mean_square_along_x():
-    assert sideways_share(contacts())[0] == 0.0
-    assert sideways_share(contacts([1.0, 0.0, 0.0]))[0] == pytest.approx(1.0)
-    assert sideways_share(contacts([0.6, 0.8, 0.0]))[0] == pytest.approx(0.36)
+    assert sideways_share(BARRETT, contacts())[0] == 0.0
+    assert sideways_share(BARRETT, contacts([1.0, 0.0, 0.0]))[0] == pytest.approx(1.0)
+    assert sideways_share(BARRETT, contacts([0.6, 0.8, 0.0]))[0] == pytest.approx(0.36)
 
 
 def test_sideways_share_is_weighted_by_contact():
     some = contacts(weight=0.0)
-    first, second = FINGER_LINKS[:2]
+    first, second = BARRETT.finger_links[:2]
     some.push[0, first], some.weight[0, first] = [1.0, 0.0, 0.0], 0.1
     some.push[0, second], some.weight[0, second] = [0.0, 1.0, 0.0], 0.3
-    assert sideways_share(some)[0] == pytest.approx(0.25)
+    assert sideways_share(BARRETT, some)[0] == pytest.approx(0.25)
 
 
 def test_sideways_share_without_contact_is_zero():
-    assert sideways_share(contacts([1.0, 0.0, 0.0], weight=0.0))[0] == 0.0
+    assert sideways_share(BARRETT, contacts([1.0, 0.0, 0.0], weight=0.0))[0] == 0.0
 
 
 def test_the_palm_does_not_count_as_a_finger():
     palm_only = contacts([1.0, 0.0, 0.0])
     palm_only.weight[:, 1:] = 0.0
-    assert sideways_share(palm_only)[0] == 0.0
+    assert sideways_share(BARRETT, palm_only)[0] == 0.0
 
 
 def test_span_goes_from_finger_3_to_the_further_opposing_one():
     some = contacts()
-    some.position_m[0, list(DISTAL_LINKS)] = [[0, 0.03, 0], [0, 0.05, 0], [0, -0.02, 0]]
-    assert fingertip_span(some)[0] == pytest.approx(0.07)
-    some.position_m[0, list(DISTAL_LINKS)] = [[0.3, 0.4, 0], [0, 0.05, 0], [0, 0, 0]]
-    assert fingertip_span(some)[0] == pytest.approx(0.5)
+    some.position_m[0, list(BARRETT.tip_links)] = [[0, 0.03, 0], [0, 0.05, 0], [0, -0.02, 0]]
+    assert fingertip_span(BARRETT, some)[0] == pytest.approx(0.07)
+    some.position_m[0, list(BARRETT.tip_links)] = [[0.3, 0.4, 0], [0, 0.05, 0], [0, 0, 0]]
+    assert fingertip_span(BARRETT, some)[0] == pytest.approx(0.5)
 
 
 def test_enclosed_circle_touches_palm_and_both_links():
     angles = np.radians([[0, 0, 70, 70, 70, 25, 25, 25]])
-    diameter = enclosed_diameters(angles)[0, 0]
+    diameter = enclosed_diameters(BARRETT, angles)[0, 0]
     radius = diameter / 2 + 0.010
     base, tip = np.radians(70 + 5), np.radians(25 + 40)
     # In the finger's plane: the palm along -x from the base, the links as they turn from +x.
@@ -184,22 +185,22 @@ def test_enclosed_circle_touches_palm_and_both_links():
 
 
 def test_measures_are_those_of_each_grasp_and_of_its_median_finger():
-    angles = kinematics.couple(np.radians([[0, 20, 90, 140], [40, 60, 50, 60]]))
-    hands = HandStates(np.tile(np.eye(4), (2, 1, 1)), angles)
+    angles = BARRETT.couple(np.radians([[0, 20, 90, 140], [40, 60, 50, 60]]))
+    hands = HandStates(BARRETT, np.tile(np.eye(4), (2, 1, 1)), angles)
     field = Ball(0.04, (0.01, 0.0, 0.07))
     contacts = find_contacts(field, hands, CONTACTS)
     found = measure(field, hands, CONTACTS)
     np.testing.assert_allclose(found.palm_gap_m, contacts.gap_m[:, PALM])
-    np.testing.assert_allclose(found.sideways_share, sideways_share(contacts))
-    np.testing.assert_allclose(found.span_m, fingertip_span(contacts))
-    middle = np.sort(enclosed_diameters(angles), axis=1)[:, 1]
+    np.testing.assert_allclose(found.sideways_share, sideways_share(BARRETT, contacts))
+    np.testing.assert_allclose(found.span_m, fingertip_span(BARRETT, contacts))
+    middle = np.sort(enclosed_diameters(BARRETT, angles), axis=1)[:, 1]
     np.testing.assert_allclose(found.enclosed_diameter_m, middle)
 
 
 def test_nothing_is_enclosed_by_fingers_that_cross_the_palm():
-    closed = kinematics.couple(np.radians([[0, 140, 140, 140]]))
-    assert (enclosed_diameters(closed) >= 0).all()
-    assert enclosed_diameters(np.full((1, 8), np.radians(150)))[0].tolist() == [0.0] * 3
+    closed = BARRETT.couple(np.radians([[0, 140, 140, 140]]))
+    assert (enclosed_diameters(BARRETT, closed) >= 0).all()
+    assert enclosed_diameters(BARRETT, np.full((1, 8), np.radians(150)))[0].tolist() == [0.0] * 3
 
 
 class Jar:
@@ -210,7 +211,9 @@ class Jar:
 
 @pytest.mark.parametrize(("back_m", "branch"), [(0.0, "power: palm gap 1"), (0.05, "precision")])
 def test_a_single_grasp_is_labelled_in_the_frame_of_its_object(back_m, branch):
-    angles = kinematics.couple(np.radians([60, 90, 90, 85]))
+    angles = BARRETT.couple(np.radians([60, 90, 90, 85]))
     settings = PARAMS.grasp_types.model_copy(update={"thresholds": THRESHOLDS})
     pose = RigidTransform.from_translation([0.0, 0.0, -back_m])
-    assert label(Grasp(Jar(), "use", pose, angles, "", "", 0.0), settings).branch.startswith(branch)
+    assert label(
+        Grasp(Jar(), "use", BARRETT, pose, angles, "", "", 0.0), settings
+    ).branch.startswith(branch)

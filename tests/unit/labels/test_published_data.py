@@ -4,9 +4,10 @@ import numpy as np
 import pandas as pd
 import pytest
 import trimesh
+from tests.unit.barrett import BARRETT
 from tests.unit.settings import PARAMS
 
-from grasptypes.hand import configuration
+from grasptypes.hands import configuration
 from grasptypes.labels.label_sources import PUBLISHED
 from grasptypes.labels.published_data import REFERENCES, labelled_grasps, lacking_data, own_mesh
 from grasptypes.objects.object_files import Surface, write_surface
@@ -53,7 +54,7 @@ def test_a_scan_comes_first_and_an_object_that_is_nowhere_is_left_out(own, tmp_p
     trimesh.creation.box([0.1, 0.1, 0.1]).export(tmp_path / "scans" / "bar.stl")
     for folder, height_m in ((tmp_path / "scans", 0.2), (tmp_path, 0.02)):
         environment = {PUBLISHED: "table.csv", REFERENCES: str(folder)}
-        grasps = labelled_grasps(environment, own.parents[1], 2.0, PARAMS.grasp_types)
+        grasps = labelled_grasps(environment, BARRETT, own.parents[1], 2.0, PARAMS.grasp_types)
         assert grasps.objects.tolist() == ["bar"]
         # The palm faces away: its lowest point is 82.9 mm below its frame.
         assert grasps.measures.palm_gap_m[0] == pytest.approx(0.3 - 0.0829 - height_m, abs=2e-3)

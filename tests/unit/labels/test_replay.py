@@ -7,9 +7,11 @@ import numpy as np
 import pandas as pd
 import pytest
 import trimesh
+from tests.unit.barrett import BARRETT
 
 from grasptypes.errors import InputError
-from grasptypes.hand import configuration, shapes
+from grasptypes.hands import configuration
+from grasptypes.hands.surface import surface_points
 from grasptypes.labels import replay
 from grasptypes.labels.published import read_published
 from grasptypes.objects.distance_grid import signed_distance
@@ -21,10 +23,10 @@ DOWN = np.diag([1.0, -1.0, -1.0, 1.0])
 OPEN_RAD = np.zeros(4)
 
 
-def above(height_m: float, dofs_rad: np.ndarray = OPEN_RAD) -> np.ndarray:
+def above(height_m: float, dofs: np.ndarray = OPEN_RAD) -> np.ndarray:
     pose = DOWN.copy()
     pose[2, 3] = height_m
-    return configuration.pack(0, pose, dofs_rad)[None]
+    return configuration.pack(0, pose, dofs)[None]
 
 
 @pytest.fixture
@@ -36,24 +38,24 @@ def plate() -> trimesh.Trimesh:
 
 
 def test_gap_is_the_distance_of_palm_and_plate(plate: trimesh.Trimesh) -> None:
-    fit = replay.fit_hands(above(0.012), plate, 0.004)
+    fit = replay.fit_hands(BARRETT, above(0.012), plate, 0.004)
     np.testing.assert_allclose(fit.gap_m, 0.012, atol=1e-4)
     np.testing.assert_array_equal(fit.penetration_m, 0.0)
     assert fit.link_distance_m[0].argmin() == 0
 
 
 def test_penetration_is_the_depth_and_leaves_no_gap(plate: trimesh.Trimesh) -> None:
-    fit = replay.fit_hands(above(-0.003), plate, 0.004)
+    fit = replay.fit_hands(BARRETT, above(-0.003), plate, 0.004)
     np.testing.assert_array_equal(fit.gap_m, 0.0)
     np.testing.assert_allclose(fit.penetration_m, 0.003, atol=1e-4)
 
 
 def test_needle_between_the_hands_points_is_noticed() -> None:
-    points = shapes.surface_points(0.004)
+    points = surface_points(BARRETT, 0.004)
     x, y = points.points_m[(points.link_index == 0) & (points.points_m[:, 2] == 0.0)][3, :2]
     needle = trimesh.creation.cone(0.0003, 0.03)
     needle.apply_translation([x + 0.002, -y + 0.001, -0.03])
-    fit = replay.fit_hands(above(-0.002), needle, 0.004)
+    fit = replay.fit_hands(BARRETT, above(-0.002), needle, 0.004)
     assert fit.gap_m[0] == 0.0
     np.testing.assert_allclose(fit.depth_m, 0.002, atol=2e-4)
 
@@ -88,7 +90,7 @@ def test_table_has_a_row_an_object_with_mesh_and_counts_limits(
     beyond = np.radians([185, 0, 0, 0])
     numbers = [above(0.012)[0], above(0.014, beyond)[0], None, above(0.014)[0]]
     published = pd.DataFrame({"object": ["plate"] * 3 + ["unknown"], "hand_configuration": numbers})
-    table = replay.replay(published, {"plate": tmp_path / "plate.stl"}, SETTINGS)
+    table = replay.replay(published, BARRETT, {"plate": tmp_path / "plate.stl"}, SETTINGS)
     replay.REPLAY_SCHEMA.validate(table)
     assert table.object.tolist() == ["plate"]
     assert table.n.tolist() == [2]
@@ -107,9 +109,9 @@ def test_published_teapot_poses_lie_on_the_teapot_and_only_in_their_own_frame() 
     numbers = np.stack(rows.hand_configuration.tolist())
     path = Path(os.environ["GRASPTYPES_REFERENCE_MESHES"]) / "utah_teapot.stl"
     mesh = replay.read_reference_mesh(path, 1.15)
-    standing = replay.fit_hands(numbers, mesh, 0.008)
+    standing = replay.fit_hands(BARRETT, numbers, mesh, 0.008)
     mesh.apply_translation(-mesh.bounds.mean(axis=0))
-    centred = replay.fit_hands(numbers, mesh, 0.008)
+    centred = replay.fit_hands(BARRETT, numbers, mesh, 0.008)
     assert np.median(standing.gap_m) <= 0.002
     assert np.median(standing.penetration_m) < 0.010
     assert np.median(centred.penetration_m) > 0.015

@@ -8,6 +8,7 @@ import pytest
 import trimesh
 from learning import ROOT, SMALL_PLANS, small_checkout
 from PIL import Image
+from tests.unit.barrett import BARRETT
 
 from grasptypes.__main__ import main
 from grasptypes.commands.plan import TYPES
@@ -86,12 +87,13 @@ def test_every_try_has_a_reason(planned):
 def test_the_formats_of_the_field_hold_the_same_hands(planned):
     table = pd.read_csv(planned / "grasps.csv")
     valid = table[table.reason == "valid"]
-    hands = multigrippergrasp.read_grasps(planned / "multigrippergrasp.json")
+    hands = multigrippergrasp.read_grasps(planned / "multigrippergrasp.json", BARRETT)
     assert len(valid) > 0
     assert len(hands.held) == len(valid)
     for number in range(len(valid)):
-        world = graspit_world.read_world(planned / f"graspit/grasp_{number + 1:02}.xml")
-        grasp = dexgraspbench.read_grasp(planned / f"dexgraspbench/grasp_{number + 1:02}.npy")
+        name = f"grasp_{number + 1:02}"
+        world = graspit_world.read_world(planned / f"graspit/{name}.xml", BARRETT)
+        grasp = dexgraspbench.read_grasp(planned / f"dexgraspbench/{name}.npy", BARRETT)
         for other in (world, grasp):
             np.testing.assert_allclose(
                 other.T_object_hand[0].as_matrix(),

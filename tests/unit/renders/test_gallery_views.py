@@ -2,8 +2,9 @@
 
 import numpy as np
 import pytest
+from tests.unit.barrett import BARRETT
 
-from grasptypes.hand import kinematics
+from grasptypes.hands.states import HandStates
 from grasptypes.renders.gallery_views import best_azimuth, finger_points
 
 
@@ -26,9 +27,9 @@ def test_the_view_is_across_what_would_hide_the_other(turn_rad: float) -> None:
 def test_the_hand_s_points_are_posed() -> None:
     T_object_hand = np.eye(4)
     T_object_hand[:3, 3] = 1.0, 2.0, 3.0
-    angles_rad = np.zeros(len(kinematics.JOINT_NAMES))
-    at_origin = finger_points(np.eye(4), angles_rad)
-    moved = finger_points(T_object_hand, angles_rad)
+    angles_rad = np.zeros((1, len(BARRETT.joints)))
+    at_origin = finger_points(HandStates(BARRETT, np.eye(4)[None], angles_rad))
+    moved = finger_points(HandStates(BARRETT, T_object_hand[None], angles_rad))
     for before, after in zip(at_origin, moved, strict=True):
         assert after == pytest.approx(before + [1.0, 2.0, 3.0])
     fingers, rest = at_origin

@@ -3,10 +3,10 @@
 from dataclasses import replace
 
 import numpy as np
-from synthesis_cases import TOUCH_M, ball_shown, scene_of
+from synthesis_cases import CLOSING, ball_shown, scene_of
+from tests.unit.barrett import BARRETT
 from tests.unit.settings import PARAMS
 
-from grasptypes.hand import kinematics
 from grasptypes.synthesis.candidates import draw_candidates, frames
 from grasptypes.synthesis.energy import closeness
 
@@ -16,7 +16,7 @@ SETTINGS = PARAMS.synthesis.candidates
 def drawn(shown, **changes):
     settings = SETTINGS.changed(**changes)
     draw = np.random.default_rng(3)
-    return draw_candidates(scene_of(), shown, settings, TOUCH_M, draw)
+    return draw_candidates(scene_of(), shown, settings, CLOSING, draw)
 
 
 def test_frames_are_rotations_that_look_along_the_approach() -> None:
@@ -31,11 +31,10 @@ def test_frames_are_rotations_that_look_along_the_approach() -> None:
 
 def test_candidates_keep_out_of_the_object_and_within_limits() -> None:
     hands = drawn(ball_shown())
-    poses = hands.T_object_hand[:, None] @ kinematics.link_poses(hands.joint_angles_rad)
+    poses = hands.T_object_hand[:, None] @ BARRETT.link_poses(hands.joint_positions)
     # Where the grid interpolates, a distance can be too large by some micrometres.
     assert closeness(scene_of(), poses).penetration_m.max() < 1e-5
-    limits = kinematics.JOINT_LIMITS_RAD
-    assert not kinematics.beyond_limits(hands.joint_angles_rad, limits, 1e-9).any()
+    assert not BARRETT.beyond_limits(hands.joint_positions, 1e-9).any()
 
 
 def test_followers_come_the_persons_way() -> None:

@@ -2,25 +2,25 @@
 
 import numpy as np
 import pytest
-from synthesis_cases import RADIUS_M, TOUCH_M, palm_at, scene_of
+from synthesis_cases import RADIUS_M, TOUCH_M, closed, palm_at, scene_of
+from tests.unit.barrett import BARRETT, COUPLING
 
-from grasptypes.hand import kinematics
-from grasptypes.synthesis.closing import close_fingers, slide_in
+from grasptypes.synthesis.closing import slide_in
 from grasptypes.synthesis.energy import closeness
 
 
 def gaps(T, angles, scene=None):
-    poses = T[:, None] @ kinematics.link_poses(angles)
+    poses = T[:, None] @ BARRETT.link_poses(angles)
     return closeness(scene or scene_of(), poses).gaps_m
 
 
 def test_palm_slides_up_to_the_ball_and_no_further() -> None:
-    moved = slide_in(scene_of(), palm_at(0.25), np.zeros(1), np.array([0.3]), TOUCH_M)
+    moved = slide_in(scene_of(), palm_at(0.25), np.zeros((1, 1)), np.array([0.3]), TOUCH_M)
     assert moved[0] == pytest.approx(0.25 - RADIUS_M, abs=0.002)
 
 
 def test_hand_goes_its_whole_way_if_nothing_stops_it() -> None:
-    moved = slide_in(scene_of(), palm_at(0.25), np.zeros(1), np.array([0.1]), TOUCH_M)
+    moved = slide_in(scene_of(), palm_at(0.25), np.zeros((1, 1)), np.array([0.1]), TOUCH_M)
     assert moved[0] == pytest.approx(0.1)
 
 
@@ -28,30 +28,30 @@ def test_hand_goes_its_whole_way_if_nothing_stops_it() -> None:
 @pytest.mark.parametrize("height", [0.035, 0.07, 0.1])
 def test_every_finger_ends_at_the_ball_or_at_its_limit_without_passing_it(spread, height) -> None:
     T = palm_at(height)
-    angles = close_fingers(scene_of(), T, np.array([spread]), TOUCH_M)
-    assert not kinematics.beyond_limits(angles, kinematics.JOINT_LIMITS_RAD, 1e-9).any()
+    angles = closed(T, spread)
+    assert not BARRETT.beyond_limits(angles, 1e-9).any()
     gap = gaps(T, angles)[0]
     assert gap.min() > -1e-6
     for finger in range(3):
         touches = min(gap[3 + finger], gap[6 + finger]) <= TOUCH_M
-        at_limit = angles[0, 5 + finger] >= kinematics.JOINT_LIMITS_RAD[5, 1] - 1e-6
+        at_limit = angles[0, 5 + finger] >= BARRETT.joint_limits[5, 1] - 1e-6
         assert touches or at_limit
 
 
 def test_free_fingers_close_to_their_limits() -> None:
-    angles = close_fingers(scene_of(), palm_at(5.0), np.zeros(1), TOUCH_M)[0]
-    np.testing.assert_allclose(angles[2:], kinematics.JOINT_LIMITS_RAD[2:, 1], atol=1e-6)
+    angles = closed(palm_at(5.0), 0.0)[0]
+    np.testing.assert_allclose(angles[2:], BARRETT.joint_limits[2:, 1], atol=1e-6)
 
 
 def test_finger_stopped_at_its_tip_stays_coupled() -> None:
-    angles = close_fingers(scene_of(), palm_at(0.11), np.zeros(1), TOUCH_M)[0]
-    np.testing.assert_allclose(angles[5:], angles[2:5] * kinematics.DISTAL_RATIO)
+    angles = closed(palm_at(0.11), 0.0)[0]
+    np.testing.assert_allclose(angles[5:], angles[2:5] * COUPLING)
 
 
 def test_finger_stopped_at_its_base_goes_on_with_its_tip() -> None:
     box = scene_of("box")
     T = palm_at(0.026)
-    angles = close_fingers(box, T, np.zeros(1), TOUCH_M)[0]
-    lead = angles[5:] - angles[2:5] * kinematics.DISTAL_RATIO
+    angles = closed(T, 0.0, scene=box)[0]
+    lead = angles[5:] - angles[2:5] * COUPLING
     assert np.all(lead > 0.05)
     assert gaps(T, angles[None], box)[0, 3:6].max() <= TOUCH_M

@@ -4,11 +4,10 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from synthesis_cases import TOUCH_M, ball_shown, palm_at, scene_of
+from synthesis_cases import ball_shown, closed, palm_at, scene_of
+from tests.unit.barrett import BARRETT
 from tests.unit.settings import PARAMS
 
-from grasptypes.hand import kinematics
-from grasptypes.synthesis.closing import close_fingers
 from grasptypes.synthesis.energy import (
     TERMS,
     Targets,
@@ -22,15 +21,14 @@ SETTINGS = PARAMS.synthesis.energy
 
 def posed(heights, angles=None):
     T = np.concatenate([palm_at(height) for height in heights])
-    spread = np.full(len(T), 1.0)
     if angles is None:
-        angles = close_fingers(scene_of(), T, spread, TOUCH_M)
-    return T[:, None] @ kinematics.link_poses(angles)
+        angles = closed(T, *([1.0] * len(T)))
+    return T[:, None] @ BARRETT.link_poses(angles)
 
 
 def terms(poses, targets):
     close = closeness(scene_of(), poses)
-    found = energies(scene_of().hand, poses, close, targets, SETTINGS)
+    found = energies(scene_of().model, poses, close, targets, SETTINGS)
     return dict(zip(TERMS, found.T, strict=True))
 
 
@@ -64,7 +62,7 @@ def test_thumb_term_vanishes_where_finger_3_touches() -> None:
 
 def test_thumb_term_is_finger_3_s_distance_also_where_another_link_is_nearer() -> None:
     poses = posed([0.1], np.zeros((1, 8)))
-    first, third = (kinematics.LINK_NAMES.index(f"distal_{finger}") for finger in (1, 3))
+    first, third = (BARRETT.link_names.index(f"distal_{finger}") for finger in (1, 3))
     # Beyond the end of finger 3, out of its bounding sphere; then finger 1 is put onto the point.
     point = poses[0, third, :3, 3] + poses[0, third, :3, 0] * 0.07
     alone = Targets(point[None], np.array([[0.0, 0.0, 1.0]]), 1)
@@ -83,10 +81,10 @@ def test_penetration_is_the_depth_of_the_deepest_point() -> None:
 
 
 def test_fingers_that_cross_collide_and_an_open_hand_does_not() -> None:
-    crossed = kinematics.couple(np.radians([[90.0, 110.0, 110.0, 0.0]]))
+    crossed = BARRETT.couple(np.radians([[90.0, 110.0, 110.0, 0.0]]))
     assert closeness(scene_of(), posed([5.0], crossed)).self_depth_m[0] > 0.003
     for spread in (0, 45, 90, 180):
-        opened = kinematics.couple(np.radians([[spread, 0.0, 0.0, 0.0]]))
+        opened = BARRETT.couple(np.radians([[spread, 0.0, 0.0, 0.0]]))
         assert closeness(scene_of(), posed([5.0], opened)).self_depth_m[0] < 1e-3
 
 

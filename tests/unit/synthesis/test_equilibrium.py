@@ -2,11 +2,10 @@
 
 import numpy as np
 import pytest
-from synthesis_cases import TOUCH_M, palm_at, scene_of
+from synthesis_cases import closed, palm_at, scene_of
+from tests.unit.barrett import BARRETT
 from tests.unit.settings import PARAMS
 
-from grasptypes.hand import kinematics
-from grasptypes.synthesis.closing import close_fingers
 from grasptypes.synthesis.equilibrium import _least_norm, wrench_residual
 
 SETTINGS = PARAMS.synthesis.equilibrium
@@ -19,16 +18,16 @@ def test_nearest_point_of_a_hull() -> None:
 
 
 def rest(angles, T):
-    poses = T[:, None] @ kinematics.link_poses(angles)
+    poses = T[:, None] @ BARRETT.link_poses(angles)
     return wrench_residual(scene_of(), poses, SETTINGS)[0]
 
 
 def test_opposed_fingers_balance_and_one_alone_does_not() -> None:
     T = palm_at(0.1)
-    closed = close_fingers(scene_of(), T, np.array([1.0]), TOUCH_M)
-    alone = closed.copy()
+    together = closed(T, 1.0)
+    alone = together.copy()
     alone[:, [2, 3, 5, 6]] = 0.0
-    assert rest(closed, T) < 0.15
+    assert rest(together, T) < 0.15
     assert rest(alone, T) > 0.8
 
 

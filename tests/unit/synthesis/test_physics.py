@@ -2,11 +2,10 @@
 
 import numpy as np
 import pytest
-from synthesis_cases import TOUCH_M, URDF, ball_object, palm_at, scene_of
+from synthesis_cases import ball_object, closed, palm_at
+from tests.unit.barrett import BARRETT, COUPLING
 from tests.unit.settings import PARAMS
 
-from grasptypes.hand import kinematics
-from grasptypes.synthesis.closing import close_fingers
 from grasptypes.synthesis.physics import physics
 
 SETTINGS = PARAMS.physics.test
@@ -14,7 +13,7 @@ SETTINGS = PARAMS.physics.test
 
 def grasp(height, spread):
     T = palm_at(height)
-    return T[0], close_fingers(scene_of(), T, np.array([spread]), TOUCH_M)[0]
+    return T[0], closed(T, spread)[0]
 
 
 GOOD, OTHER = grasp(0.0305, 0.0), grasp(0.06, 0.8)
@@ -23,7 +22,7 @@ GOOD, OTHER = grasp(0.0305, 0.0), grasp(0.06, 0.8)
 def bytes_of(held):
     numbers = [held.moved_m, held.turned_rad, *(contact.force_n for contact in held.contacts)]
     return (
-        held.T_object_hand.tobytes() + held.joint_angles_rad.tobytes() + np.array(numbers).tobytes()
+        held.T_object_hand.tobytes() + held.joint_positions.tobytes() + np.array(numbers).tobytes()
     )
 
 
@@ -33,7 +32,7 @@ def body(tmp_path):
 
 
 def test_an_enclosed_ball_is_held_with_forces_that_carry_it(body) -> None:
-    with physics(URDF, body, SETTINGS) as world:
+    with physics(BARRETT, body, SETTINGS) as world:
         held = world.hold(*GOOD)
     assert not held.dropped
     assert held.moved_m < 0.003
@@ -46,20 +45,20 @@ def test_an_enclosed_ball_is_held_with_forces_that_carry_it(body) -> None:
 
 def test_fingertips_hold_a_ball_where_it_is_and_stay_coupled(body) -> None:
     T, angles = grasp(0.09, 0.0)
-    with physics(URDF, body, SETTINGS) as world:
+    with physics(BARRETT, body, SETTINGS) as world:
         held = world.hold(T, angles)
     assert not held.dropped
     assert held.T_object_hand[2, 3] == pytest.approx(0.09, abs=0.005)
-    lag = held.joint_angles_rad[2:5] * kinematics.DISTAL_RATIO - held.joint_angles_rad[5:]
+    lag = held.joint_positions[2:5] * COUPLING - held.joint_positions[5:]
     np.testing.assert_allclose(lag, 0.0, atol=0.012)
 
 
 def test_a_base_that_is_stopped_lets_its_tip_go_on(body) -> None:
     T, angles = GOOD
-    with physics(URDF, body, SETTINGS) as world:
+    with physics(BARRETT, body, SETTINGS) as world:
         held = world.hold(T, angles)
     bases = {contact.link for contact in held.contacts} & {3, 4, 5}
-    lead = held.joint_angles_rad[5:] - held.joint_angles_rad[2:5] * kinematics.DISTAL_RATIO
+    lead = held.joint_positions[5:] - held.joint_positions[2:5] * COUPLING
     assert bases
     assert lead.max() > 0.012
 
@@ -70,7 +69,7 @@ def test_movement_is_that_of_the_object_wherever_its_frame_lies(body, tmp_path) 
     T, angles = GOOD
     moved = np.eye(4)
     moved[:3, 3] = shift
-    with physics(URDF, far_off, SETTINGS) as world:
+    with physics(BARRETT, far_off, SETTINGS) as world:
         held = world.hold(moved @ T, angles)
     assert not held.dropped
     # A turn by 0.5 degrees moves the frame's origin by 9 mm.
@@ -78,33 +77,33 @@ def test_movement_is_that_of_the_object_wherever_its_frame_lies(body, tmp_path) 
 
 
 def test_a_folded_finger_does_not_push_itself_off_the_palm(body) -> None:
-    fist = kinematics.couple([0.0, 2.2, 2.2, 0.0])
-    with physics(URDF, body, SETTINGS) as world:
+    fist = BARRETT.couple([0.0, 2.2, 2.2, 0.0])
+    with physics(BARRETT, body, SETTINGS) as world:
         held = world.hold(palm_at(5.0)[0], fist)
-    np.testing.assert_allclose(held.joint_angles_rad[:2], 0.0, atol=0.002)
+    np.testing.assert_allclose(held.joint_positions[:2], 0.0, atol=0.002)
 
 
 def test_an_open_hand_drops_a_ball_from_above_and_carries_it_from_below(body) -> None:
-    above, wide_open = GOOD[0], kinematics.couple([0.0, 0.0, 0.0, 0.0])
+    above, wide_open = GOOD[0], BARRETT.couple([0.0, 0.0, 0.0, 0.0])
     below = np.diag([1.0, -1.0, -1.0, 1.0]) @ above
-    with physics(URDF, body, SETTINGS) as world:
+    with physics(BARRETT, body, SETTINGS) as world:
         assert world.hold(above, wide_open).dropped
         assert not world.hold(below, wide_open).dropped
 
 
 def test_nothing_holds_far_away_or_without_friction(body) -> None:
     far = palm_at(0.3)[0]
-    with physics(URDF, body, SETTINGS) as world:
+    with physics(BARRETT, body, SETTINGS) as world:
         assert world.hold(far, GOOD[1]).dropped
-    with physics(URDF, body, SETTINGS.changed(friction=0.0)) as world:
+    with physics(BARRETT, body, SETTINGS.changed(friction=0.0)) as world:
         tips = grasp(0.105, 0.0)
         assert world.hold(*tips).dropped
 
 
 def test_result_does_not_depend_on_the_tests_before(body) -> None:
-    with physics(URDF, body, SETTINGS) as world:
+    with physics(BARRETT, body, SETTINGS) as world:
         alone = bytes_of(world.hold(*GOOD))
-    with physics(URDF, body, SETTINGS) as world:
+    with physics(BARRETT, body, SETTINGS) as world:
         world.hold(*OTHER)
         after_another = bytes_of(world.hold(*GOOD))
         again = bytes_of(world.hold(*GOOD))
@@ -112,10 +111,10 @@ def test_result_does_not_depend_on_the_tests_before(body) -> None:
 
 
 def test_shaking_reports_the_worst_direction(body) -> None:
-    with physics(URDF, body, SETTINGS) as world:
+    with physics(BARRETT, body, SETTINGS) as world:
         still = world.hold(*GOOD)
         once = world.steps
-    with physics(URDF, body, SETTINGS.changed(shake=True)) as world:
+    with physics(BARRETT, body, SETTINGS.changed(shake=True)) as world:
         shaken = world.hold(*GOOD)
         assert world.steps == 6 * once
     assert shaken.moved_m >= still.moved_m
@@ -124,10 +123,10 @@ def test_shaking_reports_the_worst_direction(body) -> None:
 @pytest.mark.parametrize("changes", [{"hold_time_s": 0.15}, {"control_steps": 100}])
 def test_gravity_acts_however_short_the_test_or_long_an_interval_is(tmp_path, changes) -> None:
     settings = SETTINGS.changed(squeeze_time_s=0.0, **changes)
-    with physics(URDF, ball_object(tmp_path), settings) as world:
+    with physics(BARRETT, ball_object(tmp_path), settings) as world:
         assert world.hold(palm_at(0.3)[0], GOOD[1]).moved_m > settings.drop_distance_m
 
 
 def test_a_heavy_ball_is_dropped(tmp_path) -> None:
-    with physics(URDF, ball_object(tmp_path, mass_kg=20.0), SETTINGS) as world:
+    with physics(BARRETT, ball_object(tmp_path, mass_kg=20.0), SETTINGS) as world:
         assert world.hold(*OTHER).dropped

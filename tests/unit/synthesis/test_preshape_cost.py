@@ -1,10 +1,11 @@
 import numpy as np
 import pytest
-from synthesis_cases import TOUCH_M, scene_of
+from synthesis_cases import TOUCH_M, closed, scene_of
+from tests.unit.barrett import BARRETT
 
-from grasptypes.hand import kinematics
-from grasptypes.settings.synthesis import ShapeRanges, ShapeSettings
-from grasptypes.synthesis.closing import close_fingers, slide_in
+from grasptypes.hands.description import ShapeRanges
+from grasptypes.settings.synthesis import ShapeSettings
+from grasptypes.synthesis.closing import slide_in
 from grasptypes.synthesis.preshape_cost import preshape_cost
 
 SETTINGS = ShapeSettings(reach_m=0.025, closing_weight=3.0, weight=1.0, kept=0.2)
@@ -13,12 +14,12 @@ ANY = (-1.0, 1.0)
 
 def of(spread_rad, back_off_m=0.0, **wanted):
     """Cost of a hand that came onto the ball, drew back and closed its fingers."""
-    T, spread = np.eye(4)[None], np.array([spread_rad])
+    T = np.eye(4)[None]
     T[0, 2, 3] = -0.25
-    moved = slide_in(scene_of(), T, spread, np.array([0.5]), TOUCH_M)
+    moved = slide_in(scene_of(), T, np.array([[spread_rad]]), np.array([0.5]), TOUCH_M)
     T[0, 2, 3] += moved[0] - back_off_m
-    angles = close_fingers(scene_of(), T, spread, TOUCH_M)
-    poses = T[:, None] @ kinematics.link_poses(angles)
+    angles = closed(T, spread_rad)
+    poses = T[:, None] @ BARRETT.link_poses(angles)
     ranges = ShapeRanges(**{**dict.fromkeys(ShapeRanges.model_fields, ANY), **wanted})
     return preshape_cost(scene_of(), poses, angles, ranges, SETTINGS)[0]
 

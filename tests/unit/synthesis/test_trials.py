@@ -6,13 +6,13 @@ import numpy as np
 import pandas as pd
 import pandera.pandas as pa
 import pytest
-from synthesis_cases import TOUCH_M, ball_shown, palm_at, scene_of
+from synthesis_cases import ball_shown, closed, palm_at, scene_of
+from tests.unit.barrett import BARRETT, COUPLING
 from tests.unit.settings import PARAMS
 
 from grasptypes.contact_maps.contact_map import ContactMap
-from grasptypes.hand import configuration, kinematics
-from grasptypes.hand.shapes import depth_in_hand
-from grasptypes.synthesis.closing import close_fingers
+from grasptypes.hands import configuration
+from grasptypes.hands.surface import depth_in_hand
 from grasptypes.synthesis.energy import closeness
 from grasptypes.synthesis.grasps import ATTEMPT_SCHEMA, GRASP_SCHEMA
 from grasptypes.synthesis.holding import Contact, HoldResult
@@ -21,7 +21,7 @@ from grasptypes.tables import read_table, write_table
 
 VALIDITY = PARAMS.physics.validity
 T = palm_at(0.035)
-ANGLES = close_fingers(scene_of(), T, np.array([0.0]), TOUCH_M)[0]
+ANGLES = closed(T, 0.0)[0]
 
 
 @dataclass
@@ -33,14 +33,14 @@ class World:
     sink_m: float = 0.0
     seen: int = field(default=0)
 
-    def hold(self, T_object_hand, joint_angles_rad):
+    def hold(self, T_object_hand, joint_positions):
         dropped = not self.holds[self.seen % len(self.holds)]
         self.seen += 1
         pose = T_object_hand.copy()
         pose[2, 3] -= self.sink_m
         down = np.array([0.0, 0.0, -1.0])
         contacts = [Contact(link, -0.03 * down, down, 2.0) for link in self.links]
-        return HoldResult(dropped, 0.001, 0.01, pose, joint_angles_rad, contacts)
+        return HoldResult(dropped, 0.001, 0.01, pose, joint_positions, contacts)
 
 
 def tried(world, T_object_hand=T[0], angles=ANGLES):
@@ -52,7 +52,7 @@ def test_a_held_grasp_is_valid() -> None:
 
 
 def test_reasons() -> None:
-    beyond, crossed = ANGLES.copy(), kinematics.couple(np.radians([90.0, 110.0, 110.0, 0.0]))
+    beyond, crossed = ANGLES.copy(), BARRETT.couple(np.radians([90.0, 110.0, 110.0, 0.0]))
     beyond[2] = np.radians(144.0)
     world = World([True])
     assert tried(world, angles=beyond).reason == "joint_limit"
@@ -71,11 +71,11 @@ def test_a_fingertip_that_was_pushed_behind_its_finger_is_no_state_of_the_hand(
 ) -> None:
     @dataclass
     class Pushing(World):
-        def hold(self, T_object_hand, joint_angles_rad):
-            held = super().hold(T_object_hand, joint_angles_rad)
-            pushed = held.joint_angles_rad.copy()
-            pushed[7] = kinematics.DISTAL_RATIO * pushed[4] - np.radians(degrees)
-            return held._replace(joint_angles_rad=pushed)
+        def hold(self, T_object_hand, joint_positions):
+            held = super().hold(T_object_hand, joint_positions)
+            pushed = held.joint_positions.copy()
+            pushed[7] = COUPLING * pushed[4] - np.radians(degrees)
+            return held._replace(joint_positions=pushed)
 
     assert tried(Pushing([True])).reason == reason
 
@@ -92,19 +92,19 @@ def test_a_thin_wall_between_the_hand_s_points_penetrates() -> None:
 def test_what_is_stored_is_what_was_looked_at() -> None:
     @dataclass
     class Apart(World):
-        def hold(self, T_object_hand, joint_angles_rad):
-            held = super().hold(T_object_hand, joint_angles_rad)
-            angles = joint_angles_rad.copy()
+        def hold(self, T_object_hand, joint_positions):
+            held = super().hold(T_object_hand, joint_positions)
+            angles = joint_positions.copy()
             angles[:2] = 0.2, 0.0
             angles[2] = -0.005
-            return held._replace(joint_angles_rad=angles)
+            return held._replace(joint_positions=angles)
 
     trial = tried(Apart([True]))
-    assert trial.joint_angles_rad[0] == trial.joint_angles_rad[1] == pytest.approx(0.1)
-    assert trial.joint_angles_rad[2] == 0.0
-    poses = trial.T_object_hand @ kinematics.link_poses(trial.joint_angles_rad)
+    assert trial.joint_positions[0] == trial.joint_positions[1] == pytest.approx(0.1)
+    assert trial.joint_positions[2] == 0.0
+    poses = trial.T_object_hand @ BARRETT.link_poses(trial.joint_positions)
     of_hand = closeness(scene_of(), poses[None]).penetration_m[0]
-    of_ball = depth_in_hand(scene_of().surface_m, poses)
+    of_ball = depth_in_hand(BARRETT, scene_of().surface_m, poses)
     assert trial.penetration_m == max(of_hand, of_ball)
     assert trial.reason == ""
 
