@@ -3,28 +3,22 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import cast
 
 import igl
 import numpy as np
 import trimesh
-from manifold3d import Manifold, Mesh64
+from manifold3d import Manifold
 from numpy.typing import NDArray
 
-from grasptypes.errors import InputError, parsing
+from grasptypes.errors import InputError
 from grasptypes.objects import solids
-from grasptypes.objects.mesh_limits import (
-    check_counts,
-    check_faces,
-    check_file,
-    check_size,
-    check_volume,
-)
+from grasptypes.objects.bodies import BODY, assembled, closed_bodies, concatenated, tidied
+from grasptypes.objects.mesh_files import read_meshes
+from grasptypes.objects.mesh_limits import check_size, check_volume
 from grasptypes.objects.parts import ImportedModel, Material, ObjectModel, Part
 from grasptypes.objects.units import UNITS_M
 from grasptypes.settings.objects import ImportLimits, OwnObject
 
-FORMATS = (".stl", ".obj", ".ply", ".glb")
 GREY = Material((0.62, 0.62, 0.60, 1.0), roughness=0.6)
 
 
@@ -38,121 +32,29 @@ def import_model(own: OwnObject, limits: ImportLimits) -> ImportedModel:
         InputError: the mesh cannot be used; the message says why.
     """
     path, unit, scale = own.file, own.unit, own.scale
-    meshes = _read(path, UNITS_M[unit], limits)
-    check_size(path, meshes, unit, scale, limits)
     repairs: list[str] = []
-    parts = []
-    for name, mesh in meshes.items():
-        solid = _mended(mesh, repairs)
-        if solid is not None:
-            parts.append(Part(name, solid, GREY))
-    if len(parts) < len(meshes):
-        whole = _tidy(cast(trimesh.Trimesh, trimesh.util.concatenate(list(meshes.values()))), [])
-        repairs = []  # earlier repairs have no effect on the rebuilt surface
-        parts = [Part("body", _rebuild(path, whole, limits, repairs), GREY)]
-    check_volume(path, sum(part.solid.volume() for part in parts), meshes, limits)
-    # With a given mass any density will do: the inertia is scaled to the mass.
-    model = ObjectModel(tuple(parts), own.density_kg_m3 or 1e3, own.shell_thickness_m)
-    return ImportedModel(model, scale, own.mass_kg, tuple(dict.fromkeys(repairs)))
-
-
-def _read(path: str | Path, metres: float, limits: ImportLimits) -> dict[str, trimesh.Trimesh]:
-    """Read the geometries of a mesh file by name, in metres; a single one is called `body`."""
-    path = Path(path)
-    if path.suffix.lower() not in FORMATS:
-        raise InputError(path, "", f"is not a supported mesh format ({', '.join(FORMATS)})")
-    if not path.is_file():
-        raise InputError(path, "", "no such file")
-    check_file(path, limits)
-    with parsing(path, "cannot be read as a mesh"):
-        scene = trimesh.load_scene(path, process=False)
-        geometries = {
-            name: mesh
-            for name, mesh in _placed(scene).items()
-            if isinstance(mesh, trimesh.Trimesh) and len(mesh.faces)
-        }
-    if not geometries:
-        raise InputError(path, "", "has no faces: a triangle mesh is needed")
-    check_faces(path, geometries, limits)
-    for mesh in geometries.values():
-        check_counts(path, mesh)
-        _check_corners(path, mesh)
-        if not np.isfinite(mesh.vertices).all():
-            bad = int((~np.isfinite(mesh.vertices).all(axis=1)).sum())
-            raise InputError(path, "", f"{bad} vertices are not finite (NaN or infinite)")
-        mesh.apply_scale(metres)
-    if len(geometries) == 1:
-        return {"body": next(iter(geometries.values()))}
-    return geometries
-
-
-def _check_corners(path: Path, mesh: trimesh.Trimesh) -> None:
-    """Reject faces with missing vertices; raises InputError."""
-    count = len(mesh.vertices)
-    missing = mesh.faces[(mesh.faces < 0) | (mesh.faces >= count)]
-    if len(missing):
+    meshes = read_meshes(Path(path), limits, repairs)
+    pieces = [piece for some in meshes.values() for piece in some]
+    for piece in pieces:
+        piece.apply_scale(UNITS_M[unit])
+    check_size(path, pieces, unit, scale, limits)
+    bodies, cavities = closed_bodies(meshes, repairs), None
+    if bodies:
+        found, cavities = assembled(bodies, repairs)
+    else:
+        found = {BODY: _rebuild(path, tidied(concatenated(pieces), []), limits, repairs)}
+    parts = tuple(Part(name, solid, GREY) for name, solid in found.items())
+    check_volume(path, sum(part.solid.volume() for part in parts), pieces, limits)
+    if cavities is not None and own.shell_thickness_m is not None:
         message = (
-            f"a face refers to vertex {missing[0]}, but the file has {count} (numbered from 0)"
+            "shell_thickness_m is for a mesh of the outside alone, but this one has a cavity, and "
+            "with it its walls: leave it out"
         )
-        raise InputError(path, "face", message)
-
-
-def _placed(scene: trimesh.Scene) -> dict[str, trimesh.Trimesh]:
-    """Return a scene's geometries in the scene's frame."""
-    placed = {}
-    for node in scene.graph.nodes_geometry:
-        transform, name = scene.graph[node]
-        placed[str(node)] = scene.geometry[name].copy()
-        placed[str(node)].apply_transform(transform)
-    return placed
-
-
-def _mended(mesh: trimesh.Trimesh, repairs: list[str]) -> Manifold | None:
-    """Return the solid of a mesh if it closes with or without degenerate and duplicate faces."""
-    merged = trimesh.Trimesh(mesh.vertices, mesh.faces, process=True)
-    # A face without area may close a seam, so these are only dropped if necessary.
-    for tidy in (False, True):
-        done: list[str] = []
-        solid = _solid(_tidy(merged, done) if tidy else merged, done)
-        if solid is not None:
-            repairs += done
-            return solid
-    return None
-
-
-def _tidy(mesh: trimesh.Trimesh, repairs: list[str]) -> trimesh.Trimesh:
-    """Merge equal vertices and drop faces that have no area or are duplicates."""
-    mesh = trimesh.Trimesh(mesh.vertices, mesh.faces, process=True)
-    before = len(mesh.faces)
-    mesh.update_faces(mesh.nondegenerate_faces() & mesh.unique_faces())
-    mesh.remove_unreferenced_vertices()
-    if len(mesh.faces) < before:
-        repairs.append(f"dropped {before - len(mesh.faces)} degenerate or double faces")
-    return mesh
-
-
-def _solid(mesh: trimesh.Trimesh, repairs: list[str]) -> Manifold | None:
-    """Return the union of a mesh's bodies, or None if one of them is not closed."""
-    bodies = mesh.split(only_watertight=False)
-    pieces = []
-    for body in bodies:
-        if not body.is_watertight and body.fill_holes():
-            repairs.append("filled small holes")
-        if not body.is_winding_consistent or body.volume < 0:
-            trimesh.repair.fix_normals(body)
-            repairs.append("turned faces outwards")
-        piece = Manifold(
-            Mesh64(
-                np.ascontiguousarray(body.vertices, dtype=np.float64),
-                np.ascontiguousarray(body.faces, dtype=np.uint64),
-            )
-        )
-        if piece.is_empty():
-            return None
-        pieces.append(piece)
-    if len(pieces) > 1:
-        repairs.append(f"joined {len(pieces)} bodies")
-    return solids.union(*pieces)
+        raise InputError(path, "", message)
+    # With a given mass any density will do: the inertia is scaled to the mass.
+    density = own.density_kg_m3 or 1e3
+    model = ObjectModel(parts, density, own.shell_thickness_m, cavities)
+    return ImportedModel(model, scale, own.mass_kg, tuple(dict.fromkeys(repairs)))
 
 
 def _rebuild(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection
 from pathlib import Path
 
 import numpy as np
@@ -12,49 +12,20 @@ from grasptypes.errors import InputError
 from grasptypes.objects.units import UNITS_M
 from grasptypes.settings.objects import ImportLimits
 
-Meshes = Mapping[str, trimesh.Trimesh]
+Meshes = Collection[trimesh.Trimesh]
 
 
-def check_file(path: Path, limits: ImportLimits) -> None:
-    """Reject a file that is too large to read, or a truncated STL; raises InputError."""
+def check_file_size(path: Path, limits: ImportLimits) -> None:
+    """Reject a file that is too large to read; raises InputError."""
     size_mb = path.stat().st_size / 1e6
     if size_mb > limits.max_file_mb:
         message = f"has {size_mb:.0f} MB; the limit is {limits.max_file_mb:g} MB: simplify the mesh"
         raise InputError(path, "", message)
-    if path.suffix.lower() == ".stl":
-        _check_stl(path)
-
-
-def check_counts(path: Path, loaded: trimesh.parent.Geometry) -> None:
-    """Reject a PLY with less content than its header says; raises InputError."""
-    stated = loaded.metadata.get("_ply_raw", {})
-    for name, attribute in (("vertex", "vertices"), ("face", "faces")):
-        held = getattr(loaded, attribute, ())
-        count = stated.get(name, {}).get("length", 0)
-        if count > len(held):
-            raise InputError(
-                path,
-                name,
-                f"the header says {count}, but there are {len(held)}: the file is truncated",
-            )
-
-
-def _check_stl(path: Path) -> None:
-    """A complete STL has the length given by its face count, or ends correctly as text."""
-    with path.open("rb") as file:
-        head = file.read(84)
-        file.seek(max(path.stat().st_size - 1000, 0))
-        tail = file.read()
-    faces = int.from_bytes(head[80:], "little")
-    if path.stat().st_size != 84 + 50 * faces and b"endsolid" not in tail:
-        raise InputError(
-            path, "", "is not a complete STL: it is truncated, or another kind of file"
-        )
 
 
 def check_faces(path: str | Path, meshes: Meshes, limits: ImportLimits) -> None:
     """Reject meshes with too many faces; raises InputError."""
-    faces = sum(len(mesh.faces) for mesh in meshes.values())
+    faces = sum(len(mesh.faces) for mesh in meshes)
     if faces > limits.max_faces:
         message = f"has {faces} faces; the limit is {limits.max_faces}: simplify the mesh"
         raise InputError(path, "", message)
@@ -64,7 +35,7 @@ def check_size(
     path: str | Path, meshes: Meshes, unit: str, scale: float, limits: ImportLimits
 ) -> None:
     """Reject sizes that no hand can hold, and name the unit that would fit; raises InputError."""
-    bounds = np.array([mesh.bounds for mesh in meshes.values()])
+    bounds = np.array([mesh.bounds for mesh in meshes])
     extents_m = scale * (bounds[:, 1].max(axis=0) - bounds[:, 0].min(axis=0))
     size_m = float(extents_m.max())
     if not limits.min_size_m <= size_m <= limits.max_size_m:
@@ -88,6 +59,6 @@ def check_size(
 
 def check_volume(path: str | Path, volume_m3: float, meshes: Meshes, limits: ImportLimits) -> None:
     """Reject closed but flat meshes; raises InputError."""
-    extent_m = max(float(mesh.extents.max()) for mesh in meshes.values())
+    extent_m = max(float(mesh.extents.max()) for mesh in meshes)
     if volume_m3 < limits.min_volume_share * extent_m**3:
         raise InputError(path, "", "encloses no volume: it is flat")

@@ -51,11 +51,14 @@ class ObjectModel:
         parts: the solids whose union is the object.
         density_kg_m3: density of the walls (with a shell thickness) or of the whole solid.
         shell_thickness_m: wall thickness if the real object is hollow and the model solid.
+        cavities: closed hollows inside the parts' solids; they count for mass and inertia alone,
+            since neither hand nor camera reaches them.
     """
 
     parts: tuple[Part, ...]
     density_kg_m3: float
     shell_thickness_m: float | None = None
+    cavities: Manifold | None = None
 
 
 @dataclass(frozen=True)

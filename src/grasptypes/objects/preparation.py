@@ -43,9 +43,13 @@ def prepare(
 def scaled_parts(model: ObjectModel, scale: float) -> list[Part]:
     """Return the model's parts at `scale`, as manifold3d originals whose faces can be traced."""
     return [
-        replace(part, solid=part.solid.scale((scale, scale, scale)).as_original())
+        replace(part, solid=_scaled(part.solid, scale).as_original())
         for part in model.parts
     ]
+
+
+def _scaled(solid: Manifold, scale: float) -> Manifold:
+    return solid.scale((scale, scale, scale))
 
 
 def joined(parts: list[Part]) -> Manifold:
@@ -85,7 +89,8 @@ def physical_properties(name: str, imported: ImportedModel) -> Properties:
     solid = joined(parts)
     vertices, faces = solids.to_mesh(solid)
     if model.shell_thickness_m is None:
-        bodies, taken = [], Manifold()
+        # Starting from the cavities keeps them out of every part.
+        bodies, taken = [], _scaled(model.cavities or Manifold(), scale)
         for part, density in zip(parts, densities, strict=True):
             bodies.append(inertia.solid_masses(*solids.to_mesh(part.solid - taken), density))
             taken += part.solid

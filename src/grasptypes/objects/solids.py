@@ -85,7 +85,7 @@ def loft(rings: Sequence[ArrayLike] | Array) -> Manifold:
     """
     points = np.asarray(rings, dtype=np.float64)
     count, size = points.shape[:2]
-    front, back = _cap(points[-1]), _cap(points[0])
+    front, back = plane_triangles(points[-1]), plane_triangles(points[0])
     faces = np.vstack([_skin(count, size), front + (count - 1) * size, back[:, ::-1]])
     return from_mesh(points.reshape(-1, 3), faces)
 
@@ -195,8 +195,11 @@ def _skin(count: int, size: int) -> NDArray[np.int64]:
     return np.concatenate([lower, upper]).reshape(-1, 3)
 
 
-def _cap(ring: Array) -> NDArray[np.int64]:
-    """Triangulate a plane ring (N, 3), counter-clockwise about its own (Newell) normal."""
+def plane_triangles(ring: Array) -> NDArray[np.int64]:
+    """Triangulate a plane ring (N, 3), counter-clockwise about its own (Newell) normal.
+
+    The ring may be concave and touch itself; each of its edges is one of a triangle.
+    """
     shifted = np.roll(ring, -1, axis=0)
     normal = np.cross(ring, shifted).sum(axis=0)
     right = np.cross(np.eye(3)[np.argmin(np.abs(normal))], normal)

@@ -1,0 +1,164 @@
+"""Meshes of a binary glTF 2.0 (GLB), each with its pieces, one a material."""
+
+from __future__ import annotations
+
+import io
+import json
+import struct
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import trimesh
+
+from grasptypes.errors import InputError, parsing
+
+# Extensions that leave shapes alone, and the one that is decoded here.
+_HARMLESS = (
+    "KHR_materials_", "KHR_texture_", "KHR_lights_", "KHR_xmp", "KHR_animation_", "EXT_texture_",
+    "EXT_lights_", "MSFT_texture_", "KHR_mesh_quantization",
+)  # fmt: skip
+# The file can be read without it, but shows one copy of many.
+_REPEATING = "EXT_mesh_gpu_instancing"
+_FLOAT, _INTEGERS = 5126, {5120: "<i1", 5121: "<u1", 5122: "<i2", 5123: "<u2"}
+_TRIANGLES, _STRIP, _FAN = 4, 5, 6
+
+
+def read_glb(path: Path) -> dict[str, list[trimesh.Trimesh]]:
+    """Read the meshes of the file's scene by the names of their nodes, in the scene's frame.
+
+    Raises:
+        InputError: the file is no GLB, or needs an extension or feature that is not supported.
+    """
+    with parsing(path, "cannot be read as a mesh"):
+        header, data = _chunks(path.read_bytes())
+        _check_features(path, header)
+        content = _packed(header, _with_floats(header, data))
+        scene = trimesh.load_scene(
+            io.BytesIO(content),
+            file_type="glb",
+            process=False,
+            skip_materials=True,
+            resolver=trimesh.resolvers.FilePathResolver(str(path)),
+        )
+        placed = _placed(scene)
+        stated = sum(_triangle_counts(header))
+    read = sum(len(piece.faces) for pieces in placed.values() for piece in pieces)
+    if read != stated:
+        raise InputError(path, "", f"has {stated} triangles, but only {read} could be read")
+    return placed
+
+
+def _chunks(content: bytes) -> tuple[dict[str, Any], bytes]:
+    """The JSON and the binary data of a GLB."""
+    magic, version, length = struct.unpack_from("<4sII", content)
+    if magic != b"glTF" or version != 2:
+        raise ValueError("it is not a GLB of version 2")
+    if length > len(content):
+        raise ValueError(f"it has {len(content)} of {length} bytes, so it is truncated")
+    chunks, at = [], 12
+    while at < length:
+        size = struct.unpack_from("<I", content, at)[0]
+        chunks.append(content[at + 8 : at + 8 + size])
+        at += 8 + size
+    return json.loads(chunks[0]), b"".join(chunks[1:2])
+
+
+def _packed(header: dict[str, Any], data: bytes) -> bytes:
+    """A GLB of JSON and binary data."""
+    text = json.dumps(header).encode()
+    chunks = [(b"JSON", text + b" " * (-len(text) % 4))]
+    if data:
+        chunks.append((b"BIN\0", data + bytes(-len(data) % 4)))
+    body = b"".join(struct.pack("<I4s", len(chunk), kind) + chunk for kind, chunk in chunks)
+    return struct.pack("<4sII", b"glTF", 2, 12 + len(body)) + body
+
+
+def _primitives(header: dict[str, Any]) -> Iterator[dict[str, Any]]:
+    """The pieces of every mesh that the scene shows, as often as it is shown."""
+    scenes = header.get("scenes", [])
+    waiting = list(scenes[header.get("scene", 0)].get("nodes", [])) if scenes else []
+    while waiting:
+        node = header["nodes"][waiting.pop()]
+        waiting += node.get("children", [])
+        if "mesh" in node:
+            yield from header["meshes"][node["mesh"]]["primitives"]
+
+
+def _check_features(path: Path, header: dict[str, Any]) -> None:
+    """Reject what would give no shape or a wrong one; raises InputError."""
+    unknown = [e for e in header.get("extensionsRequired", []) if not e.startswith(_HARMLESS)]
+    if _REPEATING in header.get("extensionsUsed", []):
+        unknown.append(_REPEATING)
+    for primitive in _primitives(header):
+        for used in (primitive["attributes"]["POSITION"], primitive.get("indices")):
+            accessor = {"bufferView": None} if used is None else header["accessors"][used]
+            if "bufferView" not in accessor:
+                unknown += primitive.get("extensions", {})
+            if "sparse" in accessor:
+                unknown.append("sparse accessors")
+    if unknown:
+        names = ", ".join(dict.fromkeys(unknown))
+        message = f"uses {names}, which cannot be read: export it without compression or instances"
+        raise InputError(path, "", message)
+
+
+def _with_floats(header: dict[str, Any], data: bytes) -> bytes:
+    """Decode positions stored as integers (KHR_mesh_quantization); the header is changed."""
+    for primitive in _primitives(header):
+        accessor = header["accessors"][primitive["attributes"]["POSITION"]]
+        if accessor["componentType"] == _FLOAT:
+            continue
+        kind = np.dtype(_INTEGERS[accessor["componentType"]])
+        view = header["bufferViews"][accessor["bufferView"]]
+        if view["buffer"] != 0:
+            raise ValueError("its positions are in another file")
+        start = view.get("byteOffset", 0) + accessor.get("byteOffset", 0)
+        steps = (view.get("byteStride", 3 * kind.itemsize), kind.itemsize)
+        values = np.ndarray((accessor["count"], 3), kind, data, start, steps)
+        positions = values.astype(np.float64)
+        if accessor.get("normalized"):
+            positions = np.maximum(positions / np.iinfo(kind).max, -1)
+        data += bytes(-len(data) % 4)
+        floats = positions.astype("<f4").tobytes()
+        header["bufferViews"].append(
+            {"buffer": 0, "byteOffset": len(data), "byteLength": len(floats)}
+        )
+        data += floats
+        accessor |= {
+            "bufferView": len(header["bufferViews"]) - 1,
+            "byteOffset": 0,
+            "componentType": _FLOAT,
+            "normalized": False,
+        }
+        header["buffers"][0]["byteLength"] = len(data)
+    return data
+
+
+def _triangle_counts(header: dict[str, Any]) -> Iterator[int]:
+    """Number of triangles of each piece, by its number of corners."""
+    for primitive in _primitives(header):
+        used = primitive.get("indices", primitive["attributes"]["POSITION"])
+        corners = header["accessors"][used]["count"]
+        mode = primitive.get("mode", _TRIANGLES)
+        if mode == _TRIANGLES:
+            yield corners // 3
+        elif mode in (_STRIP, _FAN):
+            yield max(corners - 2, 0)
+
+
+def _placed(scene: trimesh.Scene) -> dict[str, list[trimesh.Trimesh]]:
+    """The scene's meshes in its frame, each with its pieces, one a material."""
+    pieces: dict[str, list[trimesh.Trimesh]] = {}
+    for node in scene.graph.nodes_geometry:
+        transform, name = scene.graph[node]
+        mesh = scene.geometry[name]
+        if not isinstance(mesh, trimesh.Trimesh) or not len(mesh.faces):
+            continue
+        is_piece = mesh.metadata.get("from_gltf_primitive")
+        owner = scene.graph.transforms.parents[node] if is_piece else node
+        copy = trimesh.Trimesh(mesh.vertices, mesh.faces, process=False)
+        copy.apply_transform(transform)
+        pieces.setdefault(str(owner), []).append(copy)
+    return pieces

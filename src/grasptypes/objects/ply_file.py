@@ -1,0 +1,197 @@
+"""Elements of a PLY file (Turk 1994): vertices, faces of any size, and colours, as stated."""
+
+from __future__ import annotations
+
+import codecs
+import struct
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from grasptypes.errors import InputError
+from grasptypes.objects.polygons import PolygonMesh
+
+_TYPES = {
+    "char": "b", "uchar": "B", "short": "h", "ushort": "H", "int": "i", "uint": "I",
+    "float": "f", "double": "d", "int8": "b", "uint8": "B", "int16": "h", "uint16": "H",
+    "int32": "i", "uint32": "I", "float32": "f", "float64": "d",
+}  # fmt: skip
+_ORDERS = {"ascii": "", "binary_little_endian": "<", "binary_big_endian": ">"}
+
+
+@dataclass(frozen=True)
+class Ragged:
+    """Lists of any length: values (C,) of all rows, and the number of values (N,) of each."""
+
+    values: NDArray[np.float64]
+    sizes: NDArray[np.int64]
+
+
+@dataclass(frozen=True)
+class Element:
+    """A kind of row and its properties.
+
+    Attributes:
+        name: e.g. vertex.
+        count: number of rows that the header states.
+        types: type of each property as in `struct`; for a list, after the type of its length.
+        columns: (N,) values of each property that is no list; numbers in text stay as they are.
+        lists: values of each property that is a list.
+    """
+
+    name: str
+    count: int
+    types: dict[str, str] = field(default_factory=dict)
+    columns: dict[str, NDArray[np.float64]] = field(default_factory=dict)
+    lists: dict[str, Ragged] = field(default_factory=dict)
+
+    def fill(self, name: str, values: ArrayLike, sizes: list[int]) -> None:
+        """Take the values of one property."""
+        array = np.array(values, dtype=np.float64)
+        if len(self.types[name]) == 1:
+            self.columns[name] = array
+        else:
+            self.lists[name] = Ragged(array, np.array(sizes, dtype=np.int64))
+
+
+def read_ply(path: Path) -> dict[str, Element]:
+    """Read all elements by name.
+
+    Raises:
+        InputError: the file is no PLY, or has less content than its header says.
+    """
+    content = path.read_bytes().removeprefix(codecs.BOM_UTF8)
+    head, end, body = content.partition(b"end_header")
+    lines = head.decode("ascii", errors="replace").splitlines()
+    if not end or not lines or lines[0].strip().lower() != "ply":
+        raise InputError(path, "", "cannot be read as PLY: it has no header")
+    order, elements = _read_header(path, lines[1:])
+    if order:
+        # A line ends as the first one does: what follows may be a byte like a line's end.
+        line_end = next(mark for mark in (b"\r\n", b"\n", b"\r") if mark in head)
+        _read_binary(path, elements, body.partition(line_end)[2], order)
+    else:
+        _read_text(path, elements, body)
+    return {element.name: element for element in elements}
+
+
+def ply_faces(path: Path, elements: Mapping[str, Element]) -> PolygonMesh:
+    """Vertices and faces of a PLY file; raises InputError if it has no vertices."""
+    lists = elements["face"].lists if "face" in elements else {}
+    none = Ragged(np.empty(0), np.empty(0, dtype=np.int64))
+    corners = lists.get("vertex_indices", lists.get("vertex_index", none))
+    if (corners.sizes < 3).any():
+        raise InputError(path, "face", "one has fewer than three corners")
+    points = ply_points(path, elements)
+    return PolygonMesh(points, corners.values.astype(np.int64), corners.sizes)
+
+
+def ply_points(path: Path, elements: Mapping[str, Element]) -> NDArray[np.float64]:
+    """Positions (V, 3) of the vertices; raises InputError if the file has none."""
+    vertex = elements.get("vertex", Element("vertex", 0))
+    if not {"x", "y", "z"} <= set(vertex.columns):
+        raise InputError(path, "vertex", "has no x, y and z")
+    return np.column_stack([vertex.columns[axis] for axis in "xyz"])
+
+
+def _read_header(path: Path, lines: list[str]) -> tuple[str, list[Element]]:
+    """Byte order ('' for text), and the elements without their content."""
+    order = None
+    elements: list[Element] = []
+    for line in lines:
+        words = line.split()
+        try:
+            if not words or words[0] in ("comment", "obj_info"):
+                continue
+            if words[0] == "format":
+                order = _ORDERS[words[1]]
+            elif words[0] == "element":
+                elements.append(Element(words[1], int(words[2])))
+            elif words[0] == "property" and words[1] == "list":
+                elements[-1].types[words[4]] = _TYPES[words[2]] + _TYPES[words[3]]
+            elif words[0] == "property":
+                elements[-1].types[words[2]] = _TYPES[words[1]]
+            else:
+                raise ValueError
+        except (KeyError, IndexError, ValueError) as error:
+            message = f"'{line.strip()}' cannot be read as PLY"
+            raise InputError(path, "header", message) from error
+    if order is None:
+        raise InputError(path, "header", "names no format")
+    return order, elements
+
+
+def _read_text(path: Path, elements: list[Element], body: bytes) -> None:
+    """Fill the elements from lines of numbers, one line a row."""
+    lines = [line.split() for line in body.splitlines() if line.strip()]
+    for element in elements:
+        rows, lines = lines[: element.count], lines[element.count :]
+        _check_count(path, element, len(rows))
+        values: dict[str, list[bytes]] = {name: [] for name in element.types}
+        sizes: dict[str, list[int]] = {name: [] for name in element.types}
+        for row in rows:
+            try:
+                at = 0
+                for name, types in element.types.items():
+                    size, at = (int(row[at]), at + 1) if len(types) > 1 else (1, at)
+                    values[name] += row[at : at + size]
+                    sizes[name].append(size)
+                    at += size
+            except (ValueError, IndexError):
+                at = -1
+            if at != len(row):
+                text = b" ".join(row).decode("ascii", errors="replace")[:60]
+                raise InputError(path, element.name, f"'{text}' is not what the header says")
+        for name in element.types:
+            try:
+                element.fill(name, values[name], sizes[name])
+            except ValueError as error:
+                raise InputError(path, f"{element.name} {name}", str(error)) from error
+
+
+def _read_binary(path: Path, elements: list[Element], body: bytes, order: str) -> None:
+    """Fill the elements from bytes in one order (< or >)."""
+    at = 0
+    for element in elements:
+        if not element.types:
+            continue
+        if any(len(types) > 1 for types in element.types.values()):
+            at = _read_lists(path, element, body, at, order)
+            continue
+        row = np.dtype([(name, order + kind) for name, kind in element.types.items()])
+        _check_count(path, element, (len(body) - at) // row.itemsize)
+        rows = np.frombuffer(body[at : at + element.count * row.itemsize], row)
+        for name in element.types:
+            element.fill(name, rows[name], [])
+        at += element.count * row.itemsize
+
+
+def _read_lists(path: Path, element: Element, body: bytes, at: int, order: str) -> int:
+    """Fill an element that has lists, and return where the next one begins."""
+    values: dict[str, list[float]] = {name: [] for name in element.types}
+    sizes: dict[str, list[int]] = {name: [] for name in element.types}
+    for row in range(element.count):
+        try:
+            for name, types in element.types.items():
+                size = 1
+                if len(types) > 1:
+                    size = struct.unpack_from(order + types[0], body, at)[0]
+                    at += struct.calcsize(types[0])
+                values[name] += struct.unpack_from(f"{order}{size}{types[-1]}", body, at)
+                sizes[name].append(size)
+                at += size * struct.calcsize(types[-1])
+        except struct.error:
+            _check_count(path, element, row)
+    for name in element.types:
+        element.fill(name, values[name], sizes[name])
+    return at
+
+
+def _check_count(path: Path, element: Element, found: int) -> None:
+    """Reject a file with less content than its header says; raises InputError."""
+    if found < element.count:
+        message = f"the header says {element.count}, but there are {found}: the file is truncated"
+        raise InputError(path, element.name, message)
