@@ -82,10 +82,12 @@ CASES = [
     ),
     measured("no colours", ply(columns=""), "no vertex colours"),
     measured("a red channel alone", ply(columns="red"), "no vertex colours"),
-    measured("text instead of colours", ply(red="warm"), "cannot be read as PLY"),
+    measured("text instead of colours", ply(red="warm"), "vertex red", "warm"),
     measured("a byte of 300", ply(spread(300, 20)), "red: is 300 at vertex 0", "0 to 255"),
     measured("a negative number", ply(spread(-3, 20), kind="int"), "red: is -3 at vertex 0"),
-    measured("a share of 2", ply(spread(2.0, 0.5), kind="float"), "red: is 2.0", "0 to 1"),
+    measured(
+        "a share of 2", ply(spread(2.0, 0.5), kind="float"), "red: is 2 at vertex 0", "0 to 1"
+    ),
     measured("NaN", ply(spread("nan", 0.5), kind="float"), "red: is nan"),
     measured("nothing seen", ply(red=0), "red", "nothing was seen"),
     measured("the same everywhere", ply(red=200), "red", "no place is warmer"),

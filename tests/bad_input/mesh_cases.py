@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import struct
 from collections.abc import Iterable
 from pathlib import Path
@@ -20,17 +21,33 @@ VERTICES, FACES = BOX.vertices.tolist(), (BOX.faces + 1).tolist()
 CUPBOARD = trimesh.creation.box((0.6, 0.6, 1.0)).export(file_type="stl")
 TEXT_STL = BOX.export(file_type="stl_ascii").encode()
 TEXT_PLY = BOX.export(file_type="ply", encoding="ascii")
+STL_CUT = TEXT_STL.replace(b"endloop", b"", 1)
+STL_OF_TWO = re.sub(rb"vertex \S+ \S+ \S+", b"", TEXT_STL, count=1)
+INNER = trimesh.creation.box((0.04, 0.04, 0.04))
+INNER.invert()
+HOLLOW = trimesh.util.concatenate([BOX, INNER]).export(file_type="stl")
 STL, PLY, GLB = (BOX.export(file_type=kind) for kind in ("stl", "ply", "glb"))
 # The first of two chunks alone: its JSON names accessors, whose data are not there.
 GLB_WITHOUT_DATA = GLB[: 20 + int.from_bytes(GLB[12:16], "little")]
 # The box's indices come first in its data; the last one is another.
 LAST_INDEX = len(GLB_WITHOUT_DATA) + 8 + 4 * (3 * len(FACES) - 1)
+GLB_COMPRESSED = trimesh.exchange.gltf.export_glb(
+    trimesh.Scene(BOX),
+    tree_postprocessor=lambda tree: tree.update(extensionsRequired=["KHR_draco_mesh_compression"]),
+)
 GLB_WITH_99 = GLB[:LAST_INDEX] + struct.pack("<I", 99) + GLB[LAST_INDEX + 4 :]
 
 
-def mesh(what: str, name: str, content: Content, *names: str, unit: str = "m") -> Case:
+def mesh(
+    what: str,
+    name: str,
+    content: Content,
+    *names: str,
+    unit: str = "m",
+    wall_m: float | None = None,
+) -> Case:
     """A mesh that `objects.own.thing` names."""
-    own = OwnObject(file=name, unit=unit, density_kg_m3=1000.0)
+    own = OwnObject(file=name, unit=unit, density_kg_m3=1000.0, shell_thickness_m=wall_m)
     return Case("mesh", what, {name: content}, library(import_model, own, LIMITS), (name, *names))
 
 
@@ -50,11 +67,9 @@ def stl_with(number: float) -> bytes:
     return STL[:96] + struct.pack("<f", number) + STL[100:]
 
 
-def ply_with(corner: int) -> bytes:
-    """The box as PLY in text, whose last face has this corner."""
-    lines = TEXT_PLY.decode().rstrip().split("\n")
-    numbers = lines[-1].split()
-    return "\n".join([*lines[:-1], " ".join([*numbers[:-1], str(corner)])]).encode() + b"\n"
+def ply_row(face: str) -> bytes:
+    """The box as PLY in text, with another last face."""
+    return TEXT_PLY.rstrip().rpartition(b"\n")[0] + f"\n{face}\n".encode()
 
 
 def huge_stl(path: Path) -> None:
@@ -91,40 +106,48 @@ CASES = [
     mesh("a truncated binary STL", "cup.stl", STL[:300], "not a complete STL"),
     mesh("a truncated text STL", "cup.stl", TEXT_STL[:-300], "not a complete STL"),
     mesh("a truncated text PLY", "cup.ply", TEXT_PLY[:-30], "face", "truncated"),
-    mesh("a truncated PLY", "cup.ply", PLY[:-50], "cannot be read as a mesh"),
+    mesh("a truncated PLY", "cup.ply", PLY[:-50], "face", "12", "truncated"),
     mesh("a truncated GLB", "cup.glb", GLB[:-200], "cannot be read as a mesh"),
     mesh(
         "random bytes named .glb", "cup.glb", np.random.default_rng(0).bytes(500), "cannot be read"
     ),
     mesh("a GLB without its data", "cup.glb", GLB_WITHOUT_DATA, "cannot be read as a mesh"),
-    mesh("a misspelt PLY", "cup.ply", PLY.replace(b"list", b"lost"), "cannot be read as a mesh"),
+    mesh("a misspelt PLY", "cup.ply", PLY.replace(b"list", b"lost"), "header", "property lost"),
     mesh(
         "a PLY header with billions of vertices",
         "cup.ply",
         PLY.replace(b"vertex 8", b"vertex 3000000000"),
-        "cannot be read",
+        "vertex",
+        "3000000000",
     ),
     mesh("NaN in text", "cup.obj", obj(first("nan"), FACES), "NaN"),
     mesh("NaN in a binary file", "cup.stl", stl_with(float("nan")), "NaN"),
     mesh("infinity", "cup.obj", obj(first("inf"), FACES), "not finite"),
-    mesh(
-        "text instead of numbers", "cup.obj", obj(first("one"), FACES), "cannot be read as a mesh"
-    ),
-    mesh(
-        "a face with a missing vertex",
-        "cup.obj",
-        obj(VERTICES, [*FACES, (1, 2, 99)]),
-        "cannot be read",
-    ),
+    mesh("text instead of numbers", "cup.obj", obj(first("one"), FACES), "line 1", "'v one 0 0'"),
+    mesh("a decimal comma", "cup.obj", obj(first("0,05"), FACES), "line 1", "three numbers"),
+    mesh("a face with a missing vertex", "cup.obj", obj(VERTICES, [*FACES, (1, 2, 99)]), "98"),
+    mesh("a face with vertex 0", "cup.obj", obj(VERTICES, [*FACES, (0, 1, 2)]), "line 21"),
+    mesh("a relative vertex too many", "cup.obj", obj(VERTICES, [(-1, -2, -9)]), "'f -1 -2 -9'"),
+    mesh("a face with two corners", "cup.obj", obj(VERTICES, [*FACES, (1, 2)]), "line 21"),
+    mesh("a PLY face with two corners", "cup.ply", ply_row("2 0 1"), "three corners"),
+    mesh("a PLY row too short", "cup.ply", ply_row("3 0"), "face", "'3 0'"),
+    mesh("text in a PLY", "cup.ply", TEXT_PLY.replace(b"-0.025", b"minus"), "vertex", "minus"),
+    mesh("text in an STL", "cup.stl", TEXT_STL.replace(b"vertex -", b"vertex x"), "vertex", "x"),
+    mesh("an STL without one `endloop`", "cup.stl", STL_CUT, "facet", "damaged"),
+    mesh("an STL facet with two corners", "cup.stl", STL_OF_TWO, "three vertices"),
+    mesh("a compressed GLB", "cup.glb", GLB_COMPRESSED, "KHR_draco_mesh_compression"),
+    mesh("a cavity and a wall", "cup.stl", HOLLOW, "shell_thickness_m", "cavity", wall_m=0.001),
     mesh(
         "a PLY face with a missing vertex",
         "cup.ply",
-        ply_with(99),
+        ply_row("3 0 1 99"),
         "face: ",
         "99",
         "has 8",
     ),
-    mesh("a PLY face with a negative vertex", "cup.ply", ply_with(-1), "face: ", "-1", "has 8"),
+    mesh(
+        "a PLY face with a negative vertex", "cup.ply", ply_row("3 0 1 -1"), "face: ", "-1", "has 8"
+    ),
     mesh(
         "a GLB face with a missing vertex",
         "cup.glb",

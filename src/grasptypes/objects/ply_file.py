@@ -149,7 +149,8 @@ def _read_text(path: Path, elements: list[Element], body: bytes) -> None:
             try:
                 element.fill(name, values[name], sizes[name])
             except ValueError as error:
-                raise InputError(path, f"{element.name} {name}", str(error)) from error
+                value = str(error).rpartition(": ")[2].removeprefix("b")
+                raise InputError(path, f"{element.name} {name}", f"{value} is no number") from error
 
 
 def _read_binary(path: Path, elements: list[Element], body: bytes, order: str) -> None:
