@@ -132,9 +132,11 @@ CASES = [
     mesh("a PLY face with two corners", "cup.ply", ply_row("2 0 1"), "three corners"),
     mesh("a PLY row too short", "cup.ply", ply_row("3 0"), "face", "'3 0'"),
     mesh("text in a PLY", "cup.ply", TEXT_PLY.replace(b"-0.025", b"minus"), "vertex", "minus"),
-    mesh("text in an STL", "cup.stl", TEXT_STL.replace(b"vertex -", b"vertex x"), "vertex", "x"),
-    mesh("an STL without one `endloop`", "cup.stl", STL_CUT, "facet", "damaged"),
-    mesh("an STL facet with two corners", "cup.stl", STL_OF_TWO, "three vertices"),
+    mesh(
+        "text in an STL", "cup.stl", TEXT_STL.replace(b"vertex -", b"vertex x"), "vertex: 'x0.025'"
+    ),
+    mesh("an STL without one `endloop`", "cup.stl", STL_CUT, "facet: 12 begin, but 11"),
+    mesh("an STL facet with two corners", "cup.stl", STL_OF_TWO, "loop", "three vertices"),
     mesh("a compressed GLB", "cup.glb", GLB_COMPRESSED, "KHR_draco_mesh_compression"),
     mesh("a cavity and a wall", "cup.stl", HOLLOW, "shell_thickness_m", "cavity", wall_m=0.001),
     mesh(

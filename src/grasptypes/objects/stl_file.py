@@ -14,7 +14,6 @@ from grasptypes.objects.polygons import PolygonMesh
 
 _RECORD = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
 _SOLID = re.compile(r"^[ \t]*(end)?solid\b.*$", re.IGNORECASE | re.MULTILINE)
-_LOOP = re.compile(r"\bouter\s+loop\b(.*?)\bendloop\b", re.IGNORECASE | re.DOTALL)
 
 
 def read_stl(path: Path) -> list[PolygonMesh]:
@@ -28,7 +27,7 @@ def read_stl(path: Path) -> list[PolygonMesh]:
     # Binary files may begin with "solid", too.
     if len(content) == 84 + 50 * faces:
         points = np.frombuffer(content, _RECORD, faces, offset=84)["corners"].reshape(-1, 3)
-        return [_mesh(points, [3] * faces)]
+        return [_mesh(points.astype(np.float64), [3] * faces)]
     text = decoded(content).replace("\0", "").replace("\r", "\n")
     text = re.sub(r"(?i)\bend[ \t]+(?=(solid|facet|loop)\b)", "end", text)
     solids = [*_SOLID.finditer(text)]
@@ -42,29 +41,31 @@ def read_stl(path: Path) -> list[PolygonMesh]:
 
 def _read_facets(path: Path, text: str) -> PolygonMesh:
     """Read the text between lines that begin or end solids."""
-    loops = _LOOP.findall(text)
-    for word in ("facet", "endfacet", "loop", "endloop"):
-        count = len(re.findall(rf"\b{word}\b", text, re.IGNORECASE))
-        if count != len(loops):
-            message = f"is there {count} times, but {len(loops)} faces are complete: damaged file"
-            raise InputError(path, word, message)
-    points: list[tuple[float, float, float]] = []
+    words = text.lower().split()
+    facets, begins, ends = (
+        [place for place, word in enumerate(words) if word == wanted]
+        for wanted in ("facet", "loop", "endloop")
+    )
+    if not len(facets) == len(begins) == len(ends) == words.count("endfacet"):
+        message = f"{len(facets)} begin, but {len(ends)} are complete: the file is damaged"
+        raise InputError(path, "facet", message)
+    numbers: list[str] = []
     sizes = []
-    for loop in loops:
-        before, *rows = re.split(r"\bvertex\b", loop, flags=re.IGNORECASE)
-        try:
-            points += [(float(x), float(y), float(z)) for x, y, z in map(str.split, rows)]
-        except ValueError as error:
-            message = f"'{' '.join(loop.split())}' needs three numbers each"
-            raise InputError(path, "vertex", message) from error
-        if before.strip() or len(rows) < 3:
-            message = f"'{' '.join(loop.split())}' needs three vertices"
-            raise InputError(path, "outer loop", message)
-        sizes.append(len(rows))
-    return _mesh(points, sizes)
+    for begin, end in zip(begins, ends, strict=True):
+        corners = words[begin + 1 : end]
+        if len(corners) < 12 or corners[::4] != ["vertex"] * (len(corners) // 4):
+            message = f"'{' '.join(corners)}' is not three vertices of three numbers"
+            raise InputError(path, "loop", message)
+        del corners[::4]
+        numbers += corners
+        sizes.append(len(corners) // 3)
+    try:
+        return _mesh(np.array(numbers, dtype=np.float64).reshape(-1, 3), sizes)
+    except ValueError as error:
+        message = f"{str(error).rpartition(': ')[2]} is no number"
+        raise InputError(path, "vertex", message) from error
 
 
-def _mesh(points: object, sizes: list[int]) -> PolygonMesh:
+def _mesh(points: NDArray[np.float64], sizes: list[int]) -> PolygonMesh:
     """Faces that share no vertices."""
-    vertices: NDArray[np.float64] = np.array(points, dtype=np.float64).reshape(-1, 3)
-    return PolygonMesh(vertices, np.arange(len(vertices)), np.array(sizes, dtype=np.int64))
+    return PolygonMesh(points, np.arange(len(points)), np.array(sizes, dtype=np.int64))
