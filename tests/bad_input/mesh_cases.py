@@ -130,6 +130,7 @@ CASES = [
     mesh("a relative vertex too many", "cup.obj", obj(VERTICES, [(-1, -2, -9)]), "'f -1 -2 -9'"),
     mesh("a face with two corners", "cup.obj", obj(VERTICES, [*FACES, (1, 2)]), "line 21"),
     mesh("a PLY face with two corners", "cup.ply", ply_row("2 0 1"), "three corners"),
+    mesh("a PLY corner of half a vertex", "cup.ply", ply_row("3 0 1 1.5"), "face", "1.5"),
     mesh("a PLY row too short", "cup.ply", ply_row("3 0"), "face", "'3 0'"),
     mesh("text in a PLY", "cup.ply", TEXT_PLY.replace(b"-0.025", b"minus"), "vertex", "minus"),
     mesh(

@@ -79,12 +79,16 @@ def read_ply(path: Path) -> dict[str, Element]:
 
 
 def ply_faces(path: Path, elements: Mapping[str, Element]) -> PolygonMesh:
-    """Vertices and faces of a PLY file; raises InputError if it has no vertices."""
+    """Vertices and faces of a PLY file; raises InputError if it has no vertices or bad faces."""
     lists = elements["face"].lists if "face" in elements else {}
     none = Ragged(np.empty(0), np.empty(0, dtype=np.int64))
     corners = lists.get("vertex_indices", lists.get("vertex_index", none))
     if (corners.sizes < 3).any():
         raise InputError(path, "face", "one has fewer than three corners")
+    whole = corners.values == np.floor(corners.values)
+    if not whole.all():
+        number = corners.values[~whole][0]
+        raise InputError(path, "face", f"a face refers to vertex {number:g}, no whole number")
     points = ply_points(path, elements)
     return PolygonMesh(points, corners.values.astype(np.int64), corners.sizes)
 
