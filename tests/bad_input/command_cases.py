@@ -70,10 +70,10 @@ CASES = [
     ),
     Case(
         "command",
-        "a bad image in a folder",
-        FOLDER | {"cups/a.png": WHOLE, "cups/b.png": "no picture"},
+        "a folder of bad images",
+        FOLDER | {"cups/a.png": "no picture", "cups/b.png": ""},
         command("predict", "--image", "cups", "--task", "use"),
-        ("cups/b.png: not an image",),
+        ("cups: contains no usable image", "a.png: not an image"),
     ),
     asked(
         "a figure that cannot be written",

@@ -8,7 +8,8 @@ from __future__ import annotations
 import argparse
 import json
 import sys
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -61,27 +62,33 @@ def run(args: argparse.Namespace) -> str:
         _check_apart(args.picture, args.image, files)
         if len(files) > MAX_ROWS:
             raise InputError(args.image, "", f"--picture shows at most {MAX_ROWS} images")
-    _check_images(files, skipped, limits, background)
+    looks = partial(_looks, args.image, skipped, limits, background)
+    # Find bad images before torch takes seconds to load.
+    files = [file for file, _ in looks(read_photo if len(files) == 1 else check_photo, files)]
 
     from grasptypes.predictors.prediction import Predictor, report
 
     predictor = Predictor.load(args.folder, labels=args.labels, model=args.model, params=params)
     task = predictor.check_task(args.task)
-    shown: dict[str, Any] = {printable(file.name): file for file in files}
     if args.object:
         from grasptypes.objects.loading import own_object
 
         views = predictor.mesh_images(own_object(args.object, args.unit or "m"))
-        shown = {f"{printable(args.object.name)}, mean of {len(views)} views": views}
-    answers = [
-        predictor.predict(images, task, name=name, background=background)
-        for name, images in shown.items()
-    ]
+        shown = iter([(f"{printable(args.object.name)}, mean of {len(views)} views", views)])
+    else:
+        shown = ((printable(file.name), photo) for file, photo in looks(read_photo, files))
+    answers, pictures = [], []
+    for name, images in shown:
+        answers.append(predictor.predict(images, task, name=name))
+        if args.picture:
+            pictures.append(predictor.images(images))
+    for file, reason in sorted(skipped.items()):
+        sys.stderr.write(f"skipped {printable(file.name)}: {reason}\n")
     if args.picture:
         from grasptypes.labels.label_pictures import save_figure
         from grasptypes.predictors.prediction_pictures import draw_answers, montage
 
-        tiles = [montage(predictor.images(images, background)) for images in shown.values()]
+        tiles = [montage(picture) for picture in pictures]
         save_figure(draw_answers(tiles, answers, predictor.card, task), args.picture)
     if args.json:
         return json.dumps(predictor.describe(answers, task), indent=2) + "\n"
@@ -97,19 +104,36 @@ def _background(args: argparse.Namespace) -> tuple[int, int, int] | None:
     return read_background(args.background)
 
 
-def _check_images(
-    files: Sequence[Path],
-    skipped: Mapping[Path, str],
+def _looks(
+    image: Path,
+    skipped: dict[Path, str],
     limits: PhotoLimits,
     background: tuple[int, int, int] | None,
-) -> None:
-    """Report bad images before torch takes seconds to load, then what is skipped."""
-    if len(files) == 1:
-        read_photo(files[0], limits, background)
+    look: Callable[..., Any],
+    files: Sequence[Path],
+) -> Iterator[tuple[Path, Any]]:
+    """Yield what `look` (`check_photo` or `read_photo`) returns for each usable image.
+
+    Unusable images of a folder are added to `skipped` with their reason.
+
+    Raises:
+        InputError: the image that --image names is unusable, or all images of its folder are.
+    """
+    failed = {}
     for file in files:
-        check_photo(file, limits, background)
-    for file, reason in skipped.items():
-        sys.stderr.write(f"skipped {printable(file.name)}: {reason}\n")
+        try:
+            seen = look(file, limits, background)
+        except InputError as error:
+            if file == image:
+                raise
+            failed[file] = error.message
+        else:
+            yield file, seen
+    skipped |= failed
+    if failed and len(failed) == len(files):
+        file, reason = next(iter(failed.items()))
+        message = f"contains no usable image; {printable(file.name)}: {reason}"
+        raise InputError(image, "", message)
 
 
 def _check_apart(target: Path, image: Path | None, files: Sequence[Path]) -> None:

@@ -114,6 +114,51 @@ def test_what_a_model_cannot_answer_is_one_line(predict, arguments, expected):
     assert expected in err
 
 
+def test_bad_pictures_of_a_folder_are_skipped_with_a_reason(predict, tmp_path):
+    """Bad in the header or in the pixels: the rest is answered, drawn or not."""
+    whole = (tmp_path / "photo.png").read_bytes()
+    (tmp_path / "cut.png").write_bytes(whole[: len(whole) // 2])
+    (tmp_path / "zero.png").touch()
+    (tmp_path / "note.txt").touch()
+    Image.new("RGBA", (64, 64)).save(tmp_path / "clear.png")
+    skipped = [
+        "skipped clear.png: has transparent pixels: name the colour behind them",
+        "skipped cut.png: cannot be read as an image: image file is truncated",
+        "skipped note.txt: not named like an image",
+        "skipped zero.png: not an image",
+    ]
+    asked = ("--image", tmp_path, "--model", "a")
+    alone = predict("--image", "photo.png", "--model", "a", "--json")[0]
+    drawn = tmp_path / "new" / "drawn.png"
+    for more in ((), ("--picture", drawn)):
+        out, err, status = predict(*asked, "--json", *more)
+        assert (out, status) == (alone, 0)
+        listed = err.splitlines()[: len(skipped)]
+        assert all(map(str.startswith, listed, skipped)), err
+    assert drawn.exists()
+    assert predict(*asked, "--background", "white")[1].count("skipped") == 4  # `new` is one
+
+
+@pytest.mark.parametrize("bad", [b"", None], ids=["header", "pixels"])
+def test_a_folder_without_any_good_picture_is_rejected(predict, tmp_path, bad):
+    whole = (tmp_path / "photo.png").read_bytes()
+    for name in ("photo.png", "zero.png"):
+        (tmp_path / name).write_bytes(whole[: len(whole) // 2] if bad is None else bad)
+    drawn = tmp_path / "new" / "drawn.png"
+    out, err, status = predict("--image", tmp_path, "--model", "a", "--picture", drawn)
+    assert (out, status) == ("", 1)
+    reason = "cannot be read as an image" if bad is None else "not an image"
+    assert err.startswith(f"error: {tmp_path}: contains no usable image; photo.png: {reason}")
+    assert not drawn.parent.exists()
+
+
+def test_a_bad_picture_is_told_before_the_model_is_loaded(predict, tmp_path, monkeypatch):
+    monkeypatch.setattr(prediction.Predictor, "load", None)
+    (tmp_path / "photo.png").write_bytes((tmp_path / "photo.png").read_bytes()[:900])
+    for place in ("photo.png", tmp_path):
+        assert "cannot be read" in predict("--image", place, "--model", "a")[1]
+
+
 def test_other_weights_are_rejected_but_not_another_name(predict, checkout, monkeypatch, tmp_path):
     said = predict("--image", "photo.png", "--task", "use")
     (tmp_path / "renamed.pth").write_bytes((checkout / "random.pth").read_bytes())
