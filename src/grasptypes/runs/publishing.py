@@ -5,8 +5,7 @@ from __future__ import annotations
 import hashlib
 import json
 import logging
-import shutil
-import subprocess
+import sys
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -21,6 +20,7 @@ from grasptypes.predictors.scoring import CURVE_SCHEMA, METRIC_SCHEMA
 from grasptypes.predictors.weights import BackboneRecord
 from grasptypes.runs.tracking import RunRecord, Store, TrainedModel
 from grasptypes.tables import read_table
+from grasptypes.versions.git import git
 
 logger = logging.getLogger("grasptypes")
 
@@ -116,15 +116,19 @@ def _digest(*parts: bytes) -> str:
 
 
 def version_tags(data: Mapping[str, Sequence[Path]]) -> dict[str, str]:
-    """Checksums of the data (of the ``sha256sum`` listing), the commit, and whether it is dirty."""
+    """Checksums of the data (of the ``sha256sum`` listing), the commit, and whether it is dirty.
+
+    Without git, or where it refuses, the reason is printed and the tags name no commit.
+    """
     tags = {}
     for name, paths in data.items():
         listing = "".join(f"{file_sha256(path)}  {path.name}\n" for path in sorted(paths))
         tags[f"sha256.{name}"] = hashlib.sha256(listing.encode()).hexdigest()
-    if shutil.which("git") is not None:
-        command = ["git", "describe", "--always", "--exclude=*", "--abbrev=40", "--dirty"]
-        run = subprocess.run(command, capture_output=True, text=True, check=False)
-        commit = run.stdout.strip()  # empty outside a checkout
+    try:
+        commit = git("describe", "--always", "--exclude=*", "--abbrev=40", "--dirty").strip()
+    except InputError as error:
+        sys.stderr.write(f"the runs name no commit: {error}\n")
+    else:
         tags["mlflow.source.git.commit"] = commit.removesuffix("-dirty")
         tags["git.dirty"] = str(commit.endswith("-dirty"))
     return tags

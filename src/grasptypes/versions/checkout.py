@@ -6,7 +6,6 @@
 from __future__ import annotations
 
 import shutil
-import subprocess
 import sys
 from pathlib import Path
 
@@ -14,6 +13,7 @@ import yaml
 
 from grasptypes.errors import InputError
 from grasptypes.files import write_text
+from grasptypes.versions.git import git
 from grasptypes.yaml_files import merge, read_yaml
 
 
@@ -30,17 +30,10 @@ def copy_checkout(source: str | Path, target: str | Path, changes: str | Path) -
     Raises:
         InputError: ``source`` is not a checkout, a YAML file cannot be read, or git is missing.
     """
-    if shutil.which("git") is None:
-        raise InputError(
-            "git", "", "is not installed; it is needed to list the files of a checkout"
-        )
     source, target = Path(source), Path(target)
-    command = ["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"]
-    listing = subprocess.run(command, cwd=source, capture_output=True, text=True, check=False)
-    if listing.returncode != 0:
-        raise InputError(source, "", f"git says: {listing.stderr.strip()}")
+    listing = git("ls-files", "-z", "--cached", "--others", "--exclude-standard", folder=source)
     params = merge(read_yaml(source / "params.yaml"), read_yaml(changes))
-    for name in filter(None, listing.stdout.split("\0")):
+    for name in filter(None, listing.split("\0")):
         if (source / name).is_file():
             (target / name).parent.mkdir(parents=True, exist_ok=True)
             shutil.copy2(source / name, target / name)

@@ -127,7 +127,7 @@ def test_keys_are_made_from_content_alone(model, tmp_path):
     assert run_record(replace(model, metrics=other), SETTINGS, {}).key != record.key
 
 
-def test_runs_name_the_commit_and_the_data(data, tmp_path, monkeypatch):
+def test_runs_name_the_commit_and_the_data(data, tmp_path, monkeypatch, capsys):
     listing = "".join(
         f"{hashlib.sha256(path.read_bytes()).hexdigest()}  {path.name}\n"
         for path in sorted(data["tables"])
@@ -135,8 +135,15 @@ def test_runs_name_the_commit_and_the_data(data, tmp_path, monkeypatch):
     tags = version_tags(data)
     assert tags["sha256.tables"] == hashlib.sha256(listing.encode()).hexdigest()
     assert len(tags["mlflow.source.git.commit"]) == 40
-    monkeypatch.setenv("PATH", str(tmp_path))  # no git
-    assert "mlflow.source.git.commit" not in version_tags(data)
+    assert capsys.readouterr().err == ""
+    for name, value, reason in (
+        ("GIT_TEST_ASSUME_DIFFERENT_OWNER", "1", "git says: fatal: detected dubious ownership"),
+        ("PATH", str(tmp_path), "git: is not installed"),
+    ):
+        monkeypatch.setenv("GIT_CONFIG_GLOBAL", "/dev/null")
+        monkeypatch.setenv(name, value)
+        assert not {"mlflow.source.git.commit", "git.dirty"} & set(version_tags(data))
+        assert reason in capsys.readouterr().err
 
 
 def test_an_interrupted_call_is_finished_without_doubling(store):

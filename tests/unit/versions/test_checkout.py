@@ -1,6 +1,5 @@
 """Copies of a checkout: its code with other parameters, and none of its results."""
 
-import os
 import subprocess
 from pathlib import Path
 
@@ -36,10 +35,16 @@ def test_a_copy_has_the_code_and_the_changed_params_and_keeps_its_own_results(
 def test_what_git_refuses_is_said_in_its_words(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    git = tmp_path / "bin" / "git"
-    git.parent.mkdir()
-    git.write_text("#!/bin/sh\necho 'fatal: detected dubious ownership' >&2\nexit 128\n")
-    git.chmod(0o755)
-    monkeypatch.setenv("PATH", os.pathsep.join([str(git.parent), os.environ["PATH"]]))
-    with pytest.raises(InputError, match="fatal: detected dubious ownership"):
+    with pytest.raises(InputError, match="git says: fatal: not a git repository"):
         copy_checkout(tmp_path, tmp_path / "copy", tmp_path / "changes.yaml")
+    subprocess.run(["git", "init", "-q", tmp_path], check=True)
+    monkeypatch.setenv("GIT_TEST_ASSUME_DIFFERENT_OWNER", "1")
+    monkeypatch.setenv("GIT_CONFIG_GLOBAL", "/dev/null")  # no safe.directory
+    with pytest.raises(InputError, match=r"dubious ownership.*git config --global --add safe"):
+        copy_checkout(tmp_path, tmp_path / "copy", tmp_path / "changes.yaml")
+    monkeypatch.setenv("PATH", str(tmp_path))
+    with pytest.raises(InputError, match="git: is not installed"):
+        copy_checkout(tmp_path, tmp_path / "copy", tmp_path / "changes.yaml")
+    with pytest.raises(InputError, match="gone: no such folder"):
+        copy_checkout(tmp_path / "gone", tmp_path / "copy", tmp_path / "changes.yaml")
+    assert not (tmp_path / "copy").exists()
