@@ -52,6 +52,7 @@ CASES = [
     asked("no command", (), "arguments are required: COMMAND"),
     asked("an unknown command", ("guess",), "invalid choice: 'guess'"),
     asked("an unknown option", (*ASK, "--colour"), "--colour"),
+    asked("an abbreviated option", (*ASK, "--pic", "answer.png"), "--pic"),
     asked("neither image nor mesh", ("predict", "--task", "use"), "--image --object is required"),
     asked("an unknown unit", (*ASK, "--unit", "ell"), "--unit", "'ell'"),
     asked("a unit for an image", (*ASK, "--unit", "mm"), "--unit: mm: is for meshes"),

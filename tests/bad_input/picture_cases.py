@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import struct
 from collections.abc import Callable
 from typing import Any
 
@@ -40,6 +41,11 @@ def picture(what: str, content: Content, *names: str, name: str = "cup.png") -> 
 STILL = Image.fromarray(NOISE)
 TWO = {"save_all": True, "append_images": [Image.fromarray(NOISE[::-1])]}
 WHOLE = encoded(Image.fromarray(NOISE))
+HEIC = b"\0\0\0\x18ftypheic\0\0\0\0mif1heic" + bytes(100)
+# The number of samples per pixel is tag 277.
+CHANNELS = encoded(STILL, "tiff").replace(
+    struct.pack("<HHII", 277, 3, 1, 3), struct.pack("<HHII", 277, 3, 1, 64)
+)
 CASES = [
     picture("empty", b"", "not an image"),
     picture("text named .png", "a cup\n", "not an image"),
@@ -48,6 +54,8 @@ CASES = [
     picture("too small", encoded(Image.new("RGB", (1, 1))), "1 x 1 pixels", "at least 32"),
     picture("too large", encoded(Image.new("1", (20_000, 10_000))), "limit of 110 million pixels"),
     picture("transparent pixels", encoded(Image.new("RGBA", (64, 64))), "transparent pixels"),
+    picture("HEIC named .jpg", HEIC, "HEIC", "save it as JPEG", name="cup.jpg"),
+    picture("a TIFF of 64 channels", CHANNELS, "not an image", name="cup.tif"),
     picture("an animation", encoded(STILL, "gif", **TWO), "several images", name="cup.gif"),
     picture("several pages", encoded(STILL, "tiff", **TWO), "several images", name="cup.tif"),
     picture(

@@ -30,7 +30,8 @@ def parser() -> argparse.ArgumentParser:
     commands = whole.add_subparsers(dest="command", required=True, metavar="COMMAND")
     for name, module in COMMANDS.items():
         summary = str(module.__doc__).splitlines()[0]
-        module.add_arguments(commands.add_parser(name, help=summary, description=summary))
+        command = commands.add_parser(name, help=summary, description=summary, allow_abbrev=False)
+        module.add_arguments(command)
     return whole
 
 
@@ -42,6 +43,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
     """
     args = parser().parse_args(arguments)
     logging.basicConfig(level=logging.ERROR)
+    logging.getLogger("PIL").setLevel(logging.CRITICAL)  # its errors about images are raised, too
     warnings.simplefilter("ignore")
     try:
         sys.stdout.write(COMMANDS[args.command].run(args))

@@ -60,11 +60,11 @@ def run(args: argparse.Namespace) -> str:
     if args.picture:
         check_target(args.picture, ".png")
         _check_apart(args.picture, args.image, files)
-        if len(files) > MAX_ROWS:
-            raise InputError(args.image, "", f"--picture shows at most {MAX_ROWS} images")
     looks = partial(_looks, args.image, skipped, limits, background)
     # Find bad images before torch takes seconds to load.
     files = [file for file, _ in looks(read_photo if len(files) == 1 else check_photo, files)]
+    if args.picture and len(files) > MAX_ROWS:
+        raise InputError(args.image, "", f"--picture shows at most {MAX_ROWS} images")
 
     from grasptypes.predictors.prediction import Predictor, report
 

@@ -2,52 +2,52 @@
 
 from __future__ import annotations
 
+import contextlib
 import struct
 import warnings
 import zlib
 from collections.abc import Iterator
-from contextlib import contextmanager
 from pathlib import Path
 
 import numpy as np
-from PIL import Image, ImageColor, ImageOps, UnidentifiedImageError
+from PIL import ExifTags, Image, ImageColor, ImageOps, UnidentifiedImageError
 
-from grasptypes.errors import InputError
+from grasptypes.errors import InputError, parsing
 from grasptypes.settings.commands import PhotoLimits
 
 # No formats that run another program (EPS) or are not for single screen images.
 FORMATS = ("PNG", "JPEG", "WEBP", "BMP", "TIFF", "GIF", "PPM")
 _MODES = ("1", "L", "LA", "P", "PA", "RGB", "RGBA", "CMYK", "YCbCr")
+# Where images keep metadata, and how HEIC and AVIF begin.
+_METADATA = ("exif", "Raw profile type exif", "xmp", "XML:com.adobe.xmp")
+_PHONE_FORMATS = (b"heic", b"heix", b"heim", b"heis", b"hevc", b"mif1", b"msf1", b"avif", b"avis")
 _BROKEN = (OSError, SyntaxError, ValueError, EOFError, IndexError, struct.error, zlib.error)
 
 
 def photo_files(path: str | Path) -> tuple[list[Path], dict[Path, str]]:
-    """The file, or the images in a folder, sorted by name.
+    """The file, or the files in a folder, sorted by name; their content decides what is an image.
 
     Returns:
-        The images, and the folder's other entries with the reason why each is skipped.
+        The files, and the folder's other entries with the reason why each is skipped.
 
     Raises:
-        InputError: there is no image.
+        InputError: there is no file.
     """
     path = Path(path)
     if not path.exists():
         raise InputError(path, "", "no such file or folder")
     if path.is_file():
         return [path], {}
-    suffixes = {end for end, kind in Image.registered_extensions().items() if kind in FORMATS}
     files, skipped = [], {}
     for entry in sorted(path.iterdir()):
         if entry.name.startswith("."):
             skipped[entry] = "a hidden file"
         elif not entry.is_file():
             skipped[entry] = "not a file"
-        elif entry.suffix.lower() not in suffixes:
-            skipped[entry] = "not named like an image"
         else:
             files.append(entry)
     if not files:
-        raise InputError(path, "", f"contains no image ({', '.join(sorted(suffixes))})")
+        raise InputError(path, "", f"contains no image ({', '.join(FORMATS)})")
     return files, skipped
 
 
@@ -98,7 +98,7 @@ def read_photo(
         opened.draft("RGB", (limits.reduce_px, limits.reduce_px))
         opened.load()
         _check_opaque(path, opened, background)
-        upright = ImageOps.exif_transpose(opened)
+        upright = _upright(path, opened)
         if background is not None and upright.has_transparency_data:
             behind = Image.new("RGBA", upright.size, background)
             upright = Image.alpha_composite(behind, upright.convert("RGBA"))
@@ -107,7 +107,7 @@ def read_photo(
     return padded(np.asarray(upright))
 
 
-@contextmanager
+@contextlib.contextmanager
 def _opened(path: str | Path, limits: PhotoLimits) -> Iterator[Image.Image]:
     """Open an image and check its header; any error becomes an InputError."""
     with warnings.catch_warnings():
@@ -121,7 +121,7 @@ def _opened(path: str | Path, limits: PhotoLimits) -> Iterator[Image.Image]:
         except Image.DecompressionBombError as error:
             raise InputError(path, "", _too_large(limits)) from error
         except UnidentifiedImageError as error:
-            raise InputError(path, "", f"not an image ({', '.join(FORMATS)})") from error
+            raise InputError(path, "", _unknown(path)) from error
         except _BROKEN as error:
             raise InputError(path, "", f"cannot be read as an image: {error}") from error
 
@@ -155,6 +155,26 @@ def _check(path: str | Path, picture: Image.Image, limits: PhotoLimits) -> None:
     if picture.mode not in _MODES:
         message = f"has mode {picture.mode}; allowed: 8 bits per channel, grey or colour"
         raise InputError(path, "", message)
+
+
+def _upright(path: str | Path, picture: Image.Image) -> Image.Image:
+    """The image, turned as its metadata say; damaged metadata do not matter."""
+    plain, orientation = picture.copy(), None
+    for name in _METADATA:
+        plain.info.pop(name, None)
+    with contextlib.suppress(InputError), parsing(path, "has damaged metadata"):
+        orientation = picture.getexif().get(ExifTags.Base.Orientation)
+    plain.getexif()[ExifTags.Base.Orientation] = orientation
+    return ImageOps.exif_transpose(plain)
+
+
+def _unknown(path: str | Path) -> str:
+    """Why a file of unknown content is rejected."""
+    with Path(path).open("rb") as file:
+        start = file.read(12)
+    if start[4:8] == b"ftyp" and start[8:] in _PHONE_FORMATS:
+        return "is a HEIC or AVIF image, which cannot be read: save it as JPEG or PNG"
+    return f"not an image ({', '.join(FORMATS)})"
 
 
 def _check_opaque(

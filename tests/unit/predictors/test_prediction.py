@@ -119,12 +119,12 @@ def test_bad_pictures_of_a_folder_are_skipped_with_a_reason(predict, tmp_path):
     whole = (tmp_path / "photo.png").read_bytes()
     (tmp_path / "cut.png").write_bytes(whole[: len(whole) // 2])
     (tmp_path / "zero.png").touch()
-    (tmp_path / "note.txt").touch()
+    (tmp_path / "note.txt").write_text("a note")
     Image.new("RGBA", (64, 64)).save(tmp_path / "clear.png")
     skipped = [
         "skipped clear.png: has transparent pixels: name the colour behind them",
         "skipped cut.png: cannot be read as an image: image file is truncated",
-        "skipped note.txt: not named like an image",
+        "skipped note.txt: not an image (PNG",
         "skipped zero.png: not an image",
     ]
     asked = ("--image", tmp_path, "--model", "a")

@@ -1,5 +1,7 @@
 """What users hand in: good images whatever their format, and one clear line for the others."""
 
+import struct
+
 import numpy as np
 import pytest
 from PIL import Image
@@ -156,16 +158,14 @@ def test_of_a_phone_s_several_pictures_the_first_is_taken(tmp_path):
     assert (one == other).all()
 
 
-def test_a_folder_gives_its_pictures_by_name(tmp_path):
-    names = ("a.jpg", "b.PNG", "e.jfif", "f.pgm", "g.JPE")
-    for name in (*names, "notes.txt", ".c.png", "._a.jpg"):
+def test_a_folder_gives_its_files_by_name_whatever_they_are_called(tmp_path):
+    names = ("a.jpg", "b.PNG", "e.jfif", "f.pgm", "g.JPE", "h.HEIC", "i", "notes.txt")
+    for name in (*names, ".c.png", "._a.jpg"):
         (tmp_path / name).touch()
     (tmp_path / "d.png").mkdir()
     files, skipped = photo_files(tmp_path)
-    assert {file.name for file in files} == set(names)
-    assert files == sorted(files)
+    assert [file.name for file in files] == sorted(names)
     assert {file.name: reason for file, reason in skipped.items()} == {
-        "notes.txt": "not named like an image",
         ".c.png": "a hidden file",
         "._a.jpg": "a hidden file",
         "d.png": "not a file",
@@ -173,8 +173,37 @@ def test_a_folder_gives_its_pictures_by_name(tmp_path):
     assert photo_files(tmp_path / "a.jpg") == ([tmp_path / "a.jpg"], {})
 
 
+@pytest.mark.parametrize(
+    "entry",
+    [
+        (0x11A, 5, 1, 0, 0),  # a resolution of 0/0
+        (0x128, 11, 1, 0, 0x3F8),  # a unit that is a fraction
+        (0x128, 8, 1, 0xFFFF, 0xFFFF),  # a negative unit
+        (0x11A, 7, 5, 38, 0),  # a resolution of five bytes
+        (0x10F, 2, 0x7FFFFFFF, 38, 0),  # a camera's name of 2 GB
+    ],
+    ids=["0/0", "fraction", "negative", "bytes", "long"],
+)
+def test_damaged_metadata_cost_neither_the_photo_nor_its_turn(tmp_path, entry):
+    turned = struct.pack("<HHIHH", 0x112, 3, 1, 6, 0)
+    fields = [turned, struct.pack("<HHIHH", *entry)]
+    exif = b"Exif\0\0II*\0\x08\0\0\0\2\0" + b"".join(fields) + bytes(20)
+    Image.fromarray(NOISE).save(tmp_path / "a.jpg", exif=exif, quality=95)
+    Image.fromarray(NOISE).save(tmp_path / "b.jpg", quality=95)
+    one, other = (read_photo(tmp_path / name, LIMITS) for name in ("a.jpg", "b.jpg"))
+    assert (one == np.rot90(other, -1)).all()
+
+
+def test_metadata_that_cannot_be_read_do_not_matter(tmp_path):
+    Image.fromarray(NOISE).save(tmp_path / "a.jpg", exif=b"Exif\0\0\0\x08no TIFF")
+    Image.fromarray(NOISE).save(tmp_path / "b.jpg")
+    one, other = (read_photo(tmp_path / name, LIMITS) for name in ("a.jpg", "b.jpg"))
+    assert (one == other).all()
+
+
 def test_nothing_there_is_said(tmp_path):
     with pytest.raises(InputError, match="no such file or folder"):
         photo_files(tmp_path / "gone.png")
+    (tmp_path / ".hidden.png").touch()
     with pytest.raises(InputError, match="contains no image"):
         photo_files(tmp_path)
