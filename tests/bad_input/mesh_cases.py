@@ -35,6 +35,10 @@ GLB_COMPRESSED = trimesh.exchange.gltf.export_glb(
     trimesh.Scene(BOX),
     tree_postprocessor=lambda tree: tree.update(extensionsRequired=["KHR_draco_mesh_compression"]),
 )
+GLB_WITH_BONES = trimesh.exchange.gltf.export_glb(
+    trimesh.Scene(BOX),
+    tree_postprocessor=lambda tree: [node.update(skin=0) for node in tree["nodes"]],
+)
 GLB_WITH_99 = GLB[:LAST_INDEX] + struct.pack("<I", 99) + GLB[LAST_INDEX + 4 :]
 
 
@@ -104,6 +108,7 @@ CASES = [
     mesh("empty", "cup.stl", b"", "not a complete STL"),
     mesh("text named .stl", "cup.stl", "a cup\n", "not a complete STL"),
     mesh("a truncated binary STL", "cup.stl", STL[:300], "not a complete STL"),
+    mesh("an STL of more than it says", "cup.stl", STL[:80] + bytes([6]) + STL[81:], "6", "has 12"),
     mesh("a truncated text STL", "cup.stl", TEXT_STL[:-300], "not a complete STL"),
     mesh("a truncated text PLY", "cup.ply", TEXT_PLY[:-30], "face", "truncated"),
     mesh("a truncated PLY", "cup.ply", PLY[:-50], "face", "12", "truncated"),
@@ -139,6 +144,7 @@ CASES = [
     mesh("an STL without one `endloop`", "cup.stl", STL_CUT, "facet: 12 begin, but 11"),
     mesh("an STL facet with two corners", "cup.stl", STL_OF_TWO, "loop", "three vertices"),
     mesh("a compressed GLB", "cup.glb", GLB_COMPRESSED, "KHR_draco_mesh_compression"),
+    mesh("a GLB with a skeleton", "cup.glb", GLB_WITH_BONES, "skeleton", "without it"),
     mesh("a cavity and a wall", "cup.stl", HOLLOW, "shell_thickness_m", "cavity", wall_m=0.001),
     mesh(
         "a PLY face with a missing vertex",

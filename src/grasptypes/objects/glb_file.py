@@ -75,13 +75,18 @@ def _packed(header: dict[str, Any], data: bytes) -> bytes:
     return struct.pack("<4sII", b"glTF", 2, 12 + len(body)) + body
 
 
-def _primitives(header: dict[str, Any]) -> Iterator[dict[str, Any]]:
-    """The pieces of every mesh that the scene shows, as often as it is shown."""
-    scenes = header.get("scenes", [])
-    waiting = list(scenes[header.get("scene", 0)].get("nodes", [])) if scenes else []
+def _nodes(header: dict[str, Any]) -> Iterator[dict[str, Any]]:
+    """The nodes of the scene."""
+    waiting = list(header["scenes"][header.get("scene", 0)].get("nodes", []))
     while waiting:
         node = header["nodes"][waiting.pop()]
         waiting += node.get("children", [])
+        yield node
+
+
+def _primitives(header: dict[str, Any]) -> Iterator[dict[str, Any]]:
+    """The pieces of every mesh that the scene shows, as often as it is shown."""
+    for node in _nodes(header):
         if "mesh" in node:
             yield from header["meshes"][node["mesh"]]["primitives"]
 
@@ -91,6 +96,9 @@ def _check_features(path: Path, header: dict[str, Any]) -> None:
     unknown = [e for e in header.get("extensionsRequired", []) if not e.startswith(_HARMLESS)]
     if _REPEATING in header.get("extensionsUsed", []):
         unknown.append(_REPEATING)
+    if not header.get("scenes"):
+        raise InputError(path, "", "has no scene, so none of its meshes is shown")
+    unknown += _deformations(header)
     for primitive in _primitives(header):
         for used in (primitive["attributes"]["POSITION"], primitive.get("indices")):
             accessor = {"bufferView": None} if used is None else header["accessors"][used]
@@ -100,8 +108,18 @@ def _check_features(path: Path, header: dict[str, Any]) -> None:
                 unknown.append("sparse accessors")
     if unknown:
         names = ", ".join(dict.fromkeys(unknown))
-        message = f"uses {names}, which cannot be read: export it without compression or instances"
+        message = f"uses {names}, which cannot be read: export the mesh without it"
         raise InputError(path, "", message)
+
+
+def _deformations(header: dict[str, Any]) -> Iterator[str]:
+    """What gives the scene's meshes another shape than their vertices have."""
+    for node in _nodes(header):
+        if "mesh" in node:
+            if "skin" in node:
+                yield "a skeleton (skin)"
+            if any(node.get("weights", header["meshes"][node["mesh"]].get("weights", []))):
+                yield "a blended shape (morph target)"
 
 
 def _with_floats(header: dict[str, Any], data: bytes) -> bytes:

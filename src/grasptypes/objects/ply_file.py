@@ -9,6 +9,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
+from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import ArrayLike, NDArray
 
 from grasptypes.errors import InputError
@@ -79,18 +80,41 @@ def read_ply(path: Path) -> dict[str, Element]:
 
 
 def ply_faces(path: Path, elements: Mapping[str, Element]) -> PolygonMesh:
-    """Vertices and faces of a PLY file; raises InputError if it has no vertices or bad faces."""
-    lists = elements["face"].lists if "face" in elements else {}
-    none = Ragged(np.empty(0), np.empty(0, dtype=np.int64))
-    corners = lists.get("vertex_indices", lists.get("vertex_index", none))
-    if (corners.sizes < 3).any():
+    """Faces and strips of triangles; raises InputError if it has no vertices or bad faces."""
+    faces, strips = (_vertex_lists(path, elements, name) for name in ("face", "tristrips"))
+    if (faces.sizes < 3).any():
         raise InputError(path, "face", "one has fewer than three corners")
-    whole = corners.values == np.floor(corners.values)
+    triangles = _strip_triangles(strips)
+    corners = np.concatenate([faces.values.astype(np.int64), triangles.ravel()])
+    sizes = np.concatenate([faces.sizes, np.full(len(triangles), 3)])
+    return PolygonMesh(ply_points(path, elements), corners, sizes)
+
+
+def _vertex_lists(path: Path, elements: Mapping[str, Element], name: str) -> Ragged:
+    """The vertex indices of an element, if there is one; raises InputError for fractions."""
+    lists = elements[name].lists if name in elements else {}
+    none = Ragged(np.empty(0), np.empty(0, dtype=np.int64))
+    found = lists.get("vertex_indices", lists.get("vertex_index", none))
+    whole = found.values == np.floor(found.values)
     if not whole.all():
-        number = corners.values[~whole][0]
-        raise InputError(path, "face", f"a face refers to vertex {number:g}, no whole number")
-    points = ply_points(path, elements)
-    return PolygonMesh(points, corners.values.astype(np.int64), corners.sizes)
+        message = f"a face refers to vertex {found.values[~whole][0]:g}, no whole number"
+        raise InputError(path, name, message)
+    return found
+
+
+def _strip_triangles(strips: Ragged) -> NDArray[np.int64]:
+    """Triangles (T, 3) of strips, turned alternately; -1 begins another strip."""
+    triangles = [np.empty((0, 3), dtype=np.int64)]
+    for row in np.split(strips.values.astype(np.int64), np.cumsum(strips.sizes)):
+        for strip in np.split(row, np.flatnonzero(row == -1)):
+            corners = strip[strip != -1]
+            if len(corners) >= 3:
+                found = sliding_window_view(corners, 3).copy()
+                found[1::2] = found[1::2, ::-1]
+                triangles.append(found)
+    joined = np.concatenate(triangles)
+    # Strips are joined by triangles with a repeated corner.
+    return np.asarray(joined[(joined != np.roll(joined, 1, axis=1)).all(axis=1)])
 
 
 def ply_points(path: Path, elements: Mapping[str, Element]) -> NDArray[np.float64]:

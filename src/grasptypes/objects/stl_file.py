@@ -24,17 +24,19 @@ def read_stl(path: Path) -> list[PolygonMesh]:
     """
     content = path.read_bytes()
     faces = int.from_bytes(content[80:84], "little")
-    # Binary files may begin with "solid", too.
-    if len(content) == 84 + 50 * faces:
+    # Binary files may begin with "solid", too, and some programs leave a few bytes at the end.
+    if faces and 0 <= len(content) - 84 - 50 * faces < 50:
         points = np.frombuffer(content, _RECORD, faces, offset=84)["corners"].reshape(-1, 3)
         return [_mesh(points.astype(np.float64), [3] * faces)]
     text = decoded(content).replace("\0", "").replace("\r", "\n")
     text = re.sub(r"(?i)\bend[ \t]+(?=(solid|facet|loop)\b)", "end", text)
     solids = [*_SOLID.finditer(text)]
     if not solids or not solids[-1][1]:
-        raise InputError(
-            path, "", "is not a complete STL: it is truncated, or another kind of file"
-        )
+        message = "is not a complete STL: it is truncated, or another kind of file"
+        if b"\0" in content[84:]:
+            room = (len(content) - 84) // 50
+            message = f"is not a complete STL: it is to have {faces} triangles, but has {room}"
+        raise InputError(path, "", message)
     facets = [_read_facets(path, part) for part in _SOLID.sub("\0", text).split("\0")]
     return [mesh for mesh in facets if len(mesh.sizes)]
 

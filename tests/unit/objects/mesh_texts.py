@@ -99,6 +99,19 @@ def ply(vertices: np.ndarray, faces: Faces, order: str = "", size: str = "uchar"
     return head.encode() + body
 
 
+def strips_ply(strips: Sequence[Sequence[int]], faces: Faces = (), order: str = "") -> bytes:
+    """The bracket as a PLY with one row of strips that -1 separates, beside its faces."""
+    row = [k for strip in strips for k in (*strip, -1)][:-1]
+    whole = ply(BRACKET.vertices, faces, order)
+    head, mark, body = whole.partition(b"end_header\n")
+    head += b"element tristrips 1\nproperty list int int vertex_indices\n"
+    numbers = [len(row), *row]
+    text = " ".join(map(str, numbers)).encode() + b"\n"
+    return (
+        head + mark + body + (struct.pack(f"{order}{len(numbers)}i", *numbers) if order else text)
+    )
+
+
 def stl(vertices: np.ndarray, faces: Faces, name: str = " part") -> str:
     """An STL as text."""
     lines = [f"solid{name}"]

@@ -16,6 +16,7 @@ from tests.unit.objects.mesh_texts import (
     obj,
     ply,
     stl,
+    strips_ply,
     triangles,
 )
 from tests.unit.settings import PARAMS
@@ -127,6 +128,30 @@ def test_ways_to_write_an_stl(tmp_path, content):
     check(tmp_path / "a.stl", content, BRACKET)
 
 
+@pytest.mark.parametrize("spare", [b"\n", bytes(10), bytes(49)])
+def test_an_stl_may_have_some_bytes_at_its_end(tmp_path, spare):
+    check(tmp_path / "a.stl", binary_stl(V, T) + spare, BRACKET)
+
+
+@pytest.mark.parametrize("stated", [0, 6, len(T) - 1, len(T) + 1, 2**32 - 1])
+def test_an_stl_is_never_read_in_part(tmp_path, stated):
+    whole = binary_stl(V, T)
+    (tmp_path / "a.stl").write_bytes(whole[:80] + stated.to_bytes(4, "little") + whole[84:])
+    with pytest.raises(InputError, match=f"to have {stated} triangles, but has {len(T)}"):
+        read_meshes(tmp_path / "a.stl", LIMITS, [])
+
+
+def test_strips_of_a_ply(tmp_path):
+    """The side of the bracket as one strip; caps as faces, as strips, and joined to one."""
+    side = [k for low in [*range(8), 0] for k in (low + 8, low)]
+    caps = T[:12]
+    joined = [corner for a, b, c in caps for corner in (a, a, a, b, c, c)]
+    for order in ("", "<", ">"):
+        check(tmp_path / "faces.ply", strips_ply([side], caps, order), BRACKET)
+        check(tmp_path / "strips.ply", strips_ply([side, [], *caps], order=order), BRACKET)
+        check(tmp_path / "joined.ply", strips_ply([side, joined], order=order), BRACKET)
+
+
 def test_solids_of_an_stl_are_one_body(tmp_path):
     check(tmp_path / "two.stl", STL + stl(APART, T, " other").upper(), BRACKET, bodies=2)
     check(tmp_path / "patches.stl", stl(V, T[:7], " inlet") + stl(V, T[7:], " walls"), BRACKET)
@@ -185,6 +210,7 @@ def bracket_glb(**keywords: object) -> bytes:
 def test_pieces_of_a_glb_mesh_are_one_body(tmp_path):
     check(tmp_path / "one.glb", bracket_glb(), BRACKET)
     check(tmp_path / "two.glb", glb(V.astype("<f4"), [np.array(T[:9]), np.array(T[9:])]), BRACKET)
+    check(tmp_path / "unmoved.glb", bracket_glb(node={"weights": [0, 0.0]}), BRACKET)
     check(tmp_path / "mirrored.glb", bracket_glb(node={"scale": [-1, 1, 1]}), BRACKET)
 
 
@@ -215,6 +241,9 @@ def test_quantized_positions_are_decoded(tmp_path, kind, normalized):
         (bracket_glb(extensionsRequired=["EXT_meshopt_compression"]), "EXT_meshopt_compression"),
         (bracket_glb(extensionsUsed=["EXT_mesh_gpu_instancing"]), "EXT_mesh_gpu_instancing"),
         (bracket_glb().replace(b'"normalized": false', b'"sparse": {}       '), "sparse acc"),
+        (bracket_glb(node={"skin": 0}, skins=[{"joints": [0]}]), "a skeleton"),
+        (bracket_glb(node={"weights": [0, 0.5]}), "morph target"),
+        (bracket_glb().replace(b'"scenes"', b'"scenez"'), "has no scene"),
         (bracket_glb(mode=6), "has 82 triangles, but only 0"),
         (bracket_glb()[:-90], "truncated"),
     ],
