@@ -42,10 +42,7 @@ def prepare(
 
 def scaled_parts(model: ObjectModel, scale: float) -> list[Part]:
     """Return the model's parts at `scale`, as manifold3d originals whose faces can be traced."""
-    return [
-        replace(part, solid=_scaled(part.solid, scale).as_original())
-        for part in model.parts
-    ]
+    return [replace(part, solid=_scaled(part.solid, scale).as_original()) for part in model.parts]
 
 
 def _scaled(solid: Manifold, scale: float) -> Manifold:
