@@ -13,6 +13,7 @@ from scipy.special import softmax
 from grasptypes.__main__ import main
 from grasptypes.errors import InputError
 from grasptypes.labels.samples import TYPES
+from grasptypes.predictors import prediction
 from grasptypes.predictors.prediction import Answer, predictor_paths
 from grasptypes.predictors.prediction_pictures import draw_answers, montage
 from grasptypes.predictors.predictor_files import ModelCard, load_predictor
