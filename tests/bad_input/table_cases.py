@@ -9,6 +9,7 @@ import pandas as pd
 from case import ROOT, Case, library, script, start
 
 from grasptypes.contact_maps.affinities import COLUMNS
+from grasptypes.hands.reading import load_hand
 from grasptypes.labels.label_sources import PUBLISHED, fetch_published
 
 POSE = "0,1,0,0,0.1,0,1,0,0.2,0,0,1,0.3,0.5,1.0,1.1,1.2"
@@ -30,7 +31,7 @@ def csv(*changes: dict[str, str], drop: str = "", separator: str = ",") -> str:
 
 def published(what: str, content: str | bytes, *names: str) -> Case:
     """A table that GRASPTYPES_PUBLISHED_CSV names."""
-    arguments = "grasps.csv", [Path("mug.stl")], None, Path("replay.csv")
+    arguments = "grasps.csv", load_hand("barrett"), [Path("mug.stl")], None, Path("replay.csv")
     replay = script("replay_grasps", "replay_grasps", *arguments)
     return Case("published CSV", what, {"grasps.csv": content}, replay, ("grasps.csv", *names))
 

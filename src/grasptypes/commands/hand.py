@@ -39,7 +39,7 @@ def run(args: argparse.Namespace) -> str:
     found = check_hand(hand)
     if args.picture:
         from grasptypes.files import write_bytes
-        from grasptypes.renders.hand_pictures import draw_hand
+        from grasptypes.reports.hand_pictures import draw_hand
 
         write_bytes(args.picture, draw_hand(hand, checkout_params(args.folder)))
     if found:

@@ -109,6 +109,13 @@ class HandDescription(Settings):
     exchange: ExchangeDescription
 
     @model_validator(mode="after")
+    def _preshapes_move(self) -> Self:
+        for name, joints in self.preshape.items():
+            if not any(joints.values()):
+                raise MisplacedError(f"preshape.{name}", "moves no joint: give one a factor")
+        return self
+
+    @model_validator(mode="after")
     def _has_a_thumb(self) -> Self:
         thumbs = [finger.thumb for finger in self.fingers.values()]
         if not any(thumbs) or all(thumbs):

@@ -54,7 +54,7 @@ def hand_folder(name: str | Path, base: str | Path = ".") -> Path:
 
 def hand_files(name: str | Path) -> list[Path]:
     """All files that a hand is read from, sorted; raises InputError if there is no such hand."""
-    endings = (".urdf", ".yaml", ".obj", ".stl")
+    endings = (".urdf", ".yaml", ".obj", ".stl", ".ply", ".glb", ".dae")
     return sorted(path for path in hand_folder(name).rglob("*") if path.suffix in endings)
 
 
@@ -100,6 +100,8 @@ class _Reader:
         self._materials = {material.name: material for material in self._robot.materials}
         self._palm = described.palm.link
         self._known(self._palm, self._urdf_links, "palm.link", "link")
+        self._check_tree()
+        self._mesh_of: dict[str, Path] = {}
 
     def hand(self) -> Hand:
         """The hand; raises InputError."""
@@ -156,11 +158,31 @@ class _Reader:
             message = f"'{name}' is no {kind} of {URDF}; it has {', '.join(among)}"
             raise InputError(self._folder / DESCRIPTION, key, message)
 
+    def _check_tree(self) -> None:
+        """All links must hang on the palm; raises InputError."""
+        if self._palm in self._above:
+            message = f"'{self._palm}' is carried by another link: name the root of {URDF}"
+            raise InputError(self._folder / DESCRIPTION, "palm.link", message)
+        for name in self._urdf_links:
+            seen, at = {name}, name
+            while at in self._above:
+                at = self._above[at].parent
+                if at in seen:
+                    raise InputError(self._path, f"link {name}", "is part of a loop of joints")
+                seen.add(at)
+            if at != self._palm:
+                message = f"is not connected to the palm '{self._palm}'"
+                raise InputError(self._path, f"link {name}", message)
+
     def _moving_joints(self) -> list[str]:
         """Names of all joints that move, in the hand's order."""
-        described, named = self._described, {}
+        described = self._described
+        named: dict[str, str] = {}
         for dof, driven in described.preshape.items():
             for name in driven:
+                if name in named:
+                    message = f"'{name}' already belongs to {named[name]}"
+                    raise InputError(self._folder / DESCRIPTION, f"preshape.{dof}", message)
                 named[name] = f"preshape.{dof}"
         first = list(named)
         chains = [list(finger.joints) for finger in described.fingers.values()]
@@ -284,6 +306,10 @@ class _Reader:
             if urdf_link.inertial is not None and urdf_link.inertial.mass:
                 origin = urdf_link.inertial.origin
                 T_com = T_here @ (np.eye(4) if origin is None else np.asarray(origin))
+                if urdf_link.inertial.inertia is None or not np.isfinite(T_com).all():
+                    raise InputError(self._path, f"link {member}", "its inertial is incomplete")
+                if not np.isfinite(urdf_link.inertial.inertia).all():
+                    raise InputError(self._path, f"link {member}", "its inertia is not finite")
                 masses.append(float(urdf_link.inertial.mass))
                 centres.append(T_com[:3, 3])
                 inertias.append(T_com[:3, :3] @ urdf_link.inertial.inertia @ T_com[:3, :3].T)
@@ -341,7 +367,8 @@ class _Reader:
         T_shape = T if shape.origin is None else T @ np.asarray(shape.origin)
         if np.array_equal(T_shape, np.eye(4)) and geometry.mesh is not None:
             # Links that share a mesh file share its name.
-            name = path.stem if scale is None else ""
+            known = self._mesh_of.setdefault(path.stem, path)
+            name = path.stem if scale is None and known == path else ""
         else:
             vertices = vertices @ T_shape[:3, :3].T + T_shape[:3, 3]
         if exact_hull:

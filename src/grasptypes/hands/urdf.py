@@ -105,19 +105,25 @@ def _add_joint(robot: Element, hand: Hand, index: int, joint: Joint) -> None:
     Xml.SubElement(element, "limit", ends | {k: _numbers([v], 3) for k, v in drive.items()})
     leader = _leader(hand, index)
     if leader:
-        Xml.SubElement(element, "mimic", joint=leader[0], multiplier=leader[1])
+        name, multiplier, offset = leader
+        values = {"joint": name, "multiplier": multiplier}
+        Xml.SubElement(
+            element, "mimic", values | ({"offset": _numbers([offset])} if offset else {})
+        )
 
 
-def _leader(hand: Hand, index: int) -> tuple[str, str] | None:
-    """Name of the joint that a joint follows while nothing stops it, and the ratio, if any."""
+def _leader(hand: Hand, index: int) -> tuple[str, str, float] | None:
+    """The joint that a joint follows while nothing stops it, if any: name, ratio and offset."""
     for joints in hand.preshape.values():
         first = next(joint for joint, factor in joints.items() if factor)
         if index in joints and index != first:
-            return hand.joint_names[first], f"{joints[index] / joints[first]:g}"
+            return hand.joint_names[first], f"{joints[index] / joints[first]:g}", 0.0
     for finger in hand.fingers:
         if not hand.direct and index in finger.joints[1:]:
-            ratio = finger.rates[0, finger.joints.index(index)] / finger.rates[0, 0]
-            return hand.joint_names[finger.joints[0]], _numbers([ratio])
+            place = finger.joints.index(index)
+            ratio = finger.rates[0, place] / finger.rates[0, 0]
+            offset = float(finger.open[place] - ratio * finger.open[0])
+            return hand.joint_names[finger.joints[0]], _numbers([ratio]), offset
     return None
 
 

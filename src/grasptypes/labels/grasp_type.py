@@ -144,9 +144,9 @@ def enclosed_diameters(hand: Hand, joint_positions: ArrayLike) -> Array:
                 for joint in finger.joints[1:]
             ]
             tangent = (tangents[:, :-1] + tangents[:, 1:]).sum(axis=1)
-            # A finger that is straight in the palm plane encloses no circle.
-            widest = np.full(len(tangent), WIDEST_M / 2.0)
-            radius = np.divide(sum(lengths), tangent, out=widest, where=tangent > 0.0)
+            # Without a circle, the finger is straight in the palm plane, or beyond half a turn.
+            other = np.where(bends.sum(axis=1) > 0.0, 0.0, WIDEST_M)
+            radius = np.divide(sum(lengths), tangent, out=other, where=tangent > 0.0)
         diameters[:, column] = np.clip(2.0 * (radius - finger.half_thickness_m), 0.0, WIDEST_M)
     return diameters
 

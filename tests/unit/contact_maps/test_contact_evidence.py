@@ -4,6 +4,7 @@ import numpy as np
 import pandas as pd
 import pytest
 import trimesh
+from tests.unit.barrett import BARRETT
 
 from grasptypes.contact_maps.contact_evidence import (
     EVIDENCE_SCHEMA,
@@ -41,7 +42,9 @@ def _grasp(palm_z_m, grasp_type="Power Sphere"):
 
 def _evidence(box, tmp_path, *grasps):
     return pd.DataFrame(
-        object_evidence(pd.DataFrame(list(grasps)), box, tmp_path / "none.stl", 1.0, SETTINGS)
+        object_evidence(
+            pd.DataFrame(list(grasps)), BARRETT, box, tmp_path / "none.stl", 1.0, SETTINGS
+        )
     )
 
 
