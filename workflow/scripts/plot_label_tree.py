@@ -7,6 +7,7 @@ from grasptypes.hands.hand import Hand
 from grasptypes.hands.reading import load_hand
 from grasptypes.jobs import job
 from grasptypes.labels.dataset import VALID, dataset_schema
+from grasptypes.labels.grasp_type import thresholds_of
 from grasptypes.labels.label_pictures import save_figure
 from grasptypes.labels.label_tree import draw_label_tree, typical_grasps
 from grasptypes.reports.session_pictures import read_named_pictures
@@ -30,7 +31,7 @@ def plot_label_tree(
         for name, row in typical_grasps(table).items()
     }
     rejected = int((table.reason != VALID).sum())
-    save_figure(draw_label_tree(counts, rejected, rule.thresholds_of(hand), pictures), target)
+    save_figure(draw_label_tree(counts, rejected, thresholds_of(rule, hand), pictures), target)
 
 
 if __name__ == "__main__":

@@ -15,7 +15,14 @@ from grasptypes.hands.configuration import POSE_LENGTH
 from grasptypes.hands.hand import Hand
 from grasptypes.hands.states import HandStates
 from grasptypes.labels.contacts import DistanceField
-from grasptypes.labels.grasp_type import GRASP_TYPES, INVALID, TYPES, explain, measure
+from grasptypes.labels.grasp_type import (
+    GRASP_TYPES,
+    INVALID,
+    TYPES,
+    explain,
+    measure,
+    thresholds_of,
+)
 from grasptypes.labels.samples import COUNTS, samples_from_counts
 from grasptypes.settings.grasp_types import LabellingRule
 
@@ -88,7 +95,7 @@ def label_grasps(
     poses = configuration.unpack(np.stack(grasps.hand_configuration.tolist())).T_object_hand
     positions = np.stack(grasps.joint_angles_rad.tolist()).astype(np.float64)
     measures = measure(field, HandStates(hand, poses, positions), rule.contacts)
-    labels = pd.DataFrame(explain(measures, rule.thresholds_of(hand)), index=grasps.index)
+    labels = pd.DataFrame(explain(measures, thresholds_of(rule, hand)), index=grasps.index)
     labels = labels.rename(columns={"grasp_type": "shape"})
     labels.insert(0, "grasp_type", labels["shape"].where(grasps.valid, INVALID))
     for name, column in _MEASURES.items():

@@ -13,7 +13,7 @@ from grasptypes.hands import configuration
 from grasptypes.hands.hand import Hand
 from grasptypes.hands.states import HandStates
 from grasptypes.labels.dataset import VALID
-from grasptypes.labels.grasp_type import Label, explain, measure
+from grasptypes.labels.grasp_type import Label, explain, measure, thresholds_of
 from grasptypes.objects.object_geometry import ObjectGeometry
 from grasptypes.settings.grasp_types import GraspTypeSettings
 from grasptypes.settings.params import read_params
@@ -78,4 +78,4 @@ def label(grasp: Grasp, settings: GraspTypeSettings | None = None) -> Label:
     poses, positions = grasp.T_object_hand.as_matrix()[None], grasp.joint_positions[None]
     states = HandStates(grasp.hand, poses, positions)
     measures = measure(grasp.object.distance_grid, states, rule.contacts)
-    return explain(measures, rule.thresholds_of(grasp.hand))[0]
+    return explain(measures, thresholds_of(rule, grasp.hand))[0]

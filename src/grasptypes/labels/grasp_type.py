@@ -22,7 +22,12 @@ from numpy.typing import ArrayLike, NDArray
 from grasptypes.hands.hand import PALM, Hand
 from grasptypes.hands.states import HandStates
 from grasptypes.labels.contacts import Contacts, DistanceField, find_contacts
-from grasptypes.settings.grasp_types import ContactSettings, Softness, Thresholds
+from grasptypes.settings.grasp_types import (
+    ContactSettings,
+    LabellingRule,
+    Softness,
+    Thresholds,
+)
 
 Array = NDArray[np.float64]
 
@@ -171,6 +176,16 @@ def fingertip_span(hand: Hand, contacts: Contacts) -> Array:
         tips[finger.thumb].append(contacts.position_m[:, finger.links[-1]])
     spans = [np.linalg.norm(thumb - tip, axis=1) for thumb in tips[True] for tip in tips[False]]
     return np.asarray(np.max(spans, axis=0))
+
+
+def thresholds_of(rule: LabellingRule, hand: Hand) -> Thresholds:
+    """The thresholds of a hand: lengths grow with its fingers, shares do not."""
+    ratio = hand.finger_length_m / rule.finger_length_m
+    lengths = ("palm_gap_m", "small_diameter_m", "large_span_m")
+    scaled = {name: getattr(rule.thresholds, name) * ratio for name in lengths}
+    if hand.grips.sideways_share is not None:
+        scaled["sideways_share"] = hand.grips.sideways_share
+    return rule.thresholds.changed(**scaled)
 
 
 def limits(settings: Thresholds | Softness) -> Array:

@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 from pydantic import Field
 
 from grasptypes.settings.base import Name, Settings, Triple, Unique, setting
-
-if TYPE_CHECKING:
-    from grasptypes.hands.hand import Hand
 
 Unit = Annotated[float, Field(ge=-1, le=1)]
 Width = Annotated[float, Field(gt=0, le=10, description="natural logarithm of the measure")]
@@ -49,15 +46,6 @@ class LabellingRule(Settings):
     finger_length_m: float = setting(
         "length of the fingers of the hand on whose grasps the thresholds were fitted", gt=0, le=1
     )
-
-    def thresholds_of(self, hand: Hand) -> Thresholds:
-        """The thresholds for a hand: lengths grow with its fingers, shares do not."""
-        ratio = hand.finger_length_m / self.finger_length_m
-        lengths = ("palm_gap_m", "small_diameter_m", "large_span_m")
-        scaled = {name: getattr(self.thresholds, name) * ratio for name in lengths}
-        if hand.grips.sideways_share is not None:
-            scaled["sideways_share"] = hand.grips.sideways_share
-        return self.thresholds.changed(**scaled)
 
 
 class Softness(Settings):

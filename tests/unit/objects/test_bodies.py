@@ -36,7 +36,7 @@ def imported(path, **keywords):
 
 
 def mass_of(found):
-    return physical_properties("thing", found.model, 1.0, None, found.repairs).mass_kg
+    return physical_properties("thing", found).mass_kg
 
 
 WALL = volume(0.04) - volume(0.037)
