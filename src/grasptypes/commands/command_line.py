@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import logging
+import os
 import sys
 import warnings
 from collections.abc import Sequence
@@ -39,7 +40,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
     """Run one command.
 
     Bad input, a full disk and lack of memory are reported in one line with exit status 1; Ctrl-C
-    exits with 130, as in shells.
+    exits with 130, a closed pipe with 141, as in shells.
     """
     args = parser().parse_args(arguments)
     logging.basicConfig(level=logging.ERROR)
@@ -47,10 +48,14 @@ def main(arguments: Sequence[str] | None = None) -> None:
     warnings.simplefilter("ignore")
     try:
         sys.stdout.write(COMMANDS[args.command].run(args))
+        sys.stdout.flush()
     except InputError as error:
         sys.exit(f"error: {error}")
     except InputErrors as several:
         sys.exit("\n".join(f"error: {error}" for error in several.errors))
+    except BrokenPipeError:  # the reader, such as `head`, has enough
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        sys.exit(141)
     except OSError as error:
         where = f"{error.filename}: " if error.filename else ""
         sys.exit(f"error: {where}{error.strerror or error}")

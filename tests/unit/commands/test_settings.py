@@ -1,5 +1,7 @@
 """What commands reject before they compute anything."""
 
+import subprocess
+import sys
 from concurrent.futures.process import BrokenProcessPool
 from pathlib import Path
 
@@ -34,6 +36,18 @@ def test_a_disk_that_fills_up_meanwhile_costs_one_line(monkeypatch):
     with pytest.raises(SystemExit) as end:
         main(["predict", "--image", "cup.png"])
     assert str(end.value) == "error: No space left on device"
+
+
+def test_a_reader_that_has_enough_is_no_error():
+    code = (
+        "from grasptypes.commands import command_line, predict; predict.run = lambda _: 'x' * 10**6"
+    )
+    code += "; command_line.main(['predict', '--image', 'cup.png'])"
+    command = [sys.executable, "-c", code]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
+        process.stdout.close()
+        assert process.stderr.read() == b""
+    assert process.returncode == 141
 
 
 @pytest.mark.parametrize(
