@@ -8,7 +8,7 @@ from pathlib import Path
 from case import Case
 
 from grasptypes.commands.command_line import main
-from grasptypes.hands.reading import hand_folder
+from grasptypes.hands.folders import hand_folder
 
 MODEL = hand_folder("barrett")
 URDF, YAML, GRIPS = "hand.urdf", "hand.yaml", "grips.yaml"

@@ -1,7 +1,7 @@
 # Shared by all rules: the checked parameters, the names to loop over, and content hashes.
 import re
 
-from grasptypes.hands.reading import hand_files, hand_folder
+from grasptypes.hands.folders import hand_files, hand_folder
 from grasptypes.labels.label_sources import (
     FETCHED,
     label_sources,

@@ -32,7 +32,8 @@ def run(args: argparse.Namespace) -> str:
         check_target(args.picture, ".png")
 
     from grasptypes.hands.checking import check_hand
-    from grasptypes.hands.reading import DESCRIPTION, load_hand
+    from grasptypes.hands.folders import DESCRIPTION
+    from grasptypes.hands.reading import load_hand
     from grasptypes.settings.params import checkout_params
 
     hand = load_hand(args.hand)

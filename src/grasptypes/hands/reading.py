@@ -16,46 +16,16 @@ from numpy.typing import NDArray
 
 from grasptypes.errors import InputError, parsing
 from grasptypes.hands.description import FingerDescription, Grips, HandDescription
+from grasptypes.hands.folders import DESCRIPTION, GRIPS, URDF, hand_folder
 from grasptypes.hands.hand import ConvexPart, Finger, Hand, Joint, Link, Visual
 from grasptypes.settings.base import MisplacedError
 from grasptypes.yaml_files import read_yaml
 
 Array = NDArray[np.float64]
 
-HANDS = Path(__file__).parent / "data"
-URDF, DESCRIPTION, GRIPS = "hand.urdf", "hand.yaml", "grips.yaml"
 # Corners of round primitives: a cylinder of 10 mm radius is off by 0.1 mm.
 SEGMENTS = 24
 _GREY = (0.4, 0.4, 0.42, 1.0)
-
-
-def hand_names() -> list[str]:
-    """Names of the hands that come with the package."""
-    return sorted(path.parent.name for path in HANDS.glob(f"*/{DESCRIPTION}"))
-
-
-def hand_folder(name: str | Path, base: str | Path = ".") -> Path:
-    """Folder of a hand: one that comes with the package, or a folder of the user's.
-
-    Args:
-        base: what a relative folder is relative to.
-
-    Raises:
-        InputError: there is no such hand.
-    """
-    own = HANDS / str(name)
-    folder = own if str(name) in hand_names() else Path(base) / name
-    if not (folder / DESCRIPTION).is_file():
-        known = ", ".join(hand_names())
-        message = f"no such hand: use {known}, or a folder with {URDF}, {DESCRIPTION} and {GRIPS}"
-        raise InputError(str(name), "", message)
-    return folder
-
-
-def hand_files(name: str | Path) -> list[Path]:
-    """All files that a hand is read from, sorted; raises InputError if there is no such hand."""
-    endings = (".urdf", ".yaml", ".obj", ".stl", ".ply", ".glb", ".dae")
-    return sorted(path for path in hand_folder(name).rglob("*") if path.suffix in endings)
 
 
 def load_hand(name: str | Path, base: str | Path = ".") -> Hand:

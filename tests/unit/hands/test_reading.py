@@ -14,8 +14,9 @@ from own_hand import URDF, write_hand
 from trimesh.transformations import euler_matrix
 
 from grasptypes.errors import InputError
+from grasptypes.hands.folders import hand_files, hand_names
 from grasptypes.hands.hand import Hand
-from grasptypes.hands.reading import hand_files, hand_names, load_hand
+from grasptypes.hands.reading import load_hand
 from grasptypes.hands.urdf import write_urdf
 
 LINKS = ("wrist", "post", "index_1", "thumb", "index_2", "index_3")

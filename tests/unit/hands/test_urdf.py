@@ -11,8 +11,9 @@ import pytest
 from bullet import bullet_poses, loaded
 from tests.unit.barrett import BARRETT, COUPLING, DISTAL_M
 
+from grasptypes.hands.folders import HANDS, hand_files, hand_names
 from grasptypes.hands.hand import Hand
-from grasptypes.hands.reading import HANDS, hand_files, hand_names, load_hand
+from grasptypes.hands.reading import load_hand
 from grasptypes.hands.surface import link_meshes
 from grasptypes.hands.urdf import obj_text, write_urdf
 
