@@ -61,6 +61,7 @@ def compiled(*, inline: bool = False) -> Callable[[Callable[P, R]], Callable[P, 
     """
 
     def decorate(function: Callable[P, R]) -> Callable[P, R]:
+        """The function, compiled, with a cache that knows all it calls."""
         usual = _config.CACHE_LOCATOR_CLASSES
         _config.CACHE_LOCATOR_CLASSES = _LOCATORS
         try:

@@ -32,7 +32,7 @@ def run(args: argparse.Namespace) -> str:
         check_target(args.picture, ".png")
 
     from grasptypes.hands.checking import check_hand
-    from grasptypes.hands.folders import DESCRIPTION
+    from grasptypes.hands.folders import DESCRIPTION, hand_folder
     from grasptypes.hands.reading import load_hand
     from grasptypes.settings.params import checkout_params
 
@@ -44,7 +44,8 @@ def run(args: argparse.Namespace) -> str:
 
         write_bytes(args.picture, draw_hand(hand, checkout_params(args.folder)))
     if found:
-        raise InputErrors(InputError(Path(hand.folder, DESCRIPTION), "", line) for line in found)
+        path = hand_folder(args.hand) / DESCRIPTION
+        raise InputErrors(InputError(path, "", line) for line in found)
     mass_kg = sum(link.mass_kg for link in hand.links)
     return (
         f"{hand.title}: {len(hand.fingers)} fingers, {len(hand.joints)} joints, {mass_kg:.3f} kg, "

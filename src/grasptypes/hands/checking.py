@@ -37,9 +37,7 @@ def check_hand(hand: Hand) -> list[str]:
 
 def open_states(hand: Hand, preshapes: Sequence[Sequence[float]]) -> HandStates:
     """Open hands with these preshapes, at the origin."""
-    positions = hand.preshaped(np.array(preshapes, dtype=np.float64))
-    for finger in hand.fingers:
-        positions[:, list(finger.joints)] = finger.open
+    positions = hand.opened(preshapes)
     return HandStates(hand, np.tile(np.eye(4), (len(positions), 1, 1)), positions)
 
 

@@ -213,6 +213,13 @@ class Hand:
                 positions[..., joint] = factor * preshape[..., dof]
         return positions
 
+    def opened(self, preshape: ArrayLike) -> Array:
+        """Joint positions (..., J) of an open hand with a preshape (..., P)."""
+        positions = self.preshaped(preshape)
+        for finger in self.fingers:
+            positions[..., list(finger.joints)] = finger.open
+        return positions
+
     def preshape_of(self, positions: Array) -> Array:
         """Preshape (..., P) of joint positions (..., J); joints that share one count alike."""
         values = np.empty((*positions.shape[:-1], len(self.preshape)))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from functools import cache
 from itertools import pairwise
 from pathlib import Path
@@ -34,18 +35,20 @@ def load_hand(name: str | Path, base: str | Path = ".") -> Hand:
     Raises:
         InputError: the hand is unknown, or a file of it is wrong; names the file and the key.
     """
-    return _load(hand_folder(name, base).resolve())
+    folder = hand_folder(name, base)
+    return _load(folder, folder.resolve())
 
 
 @cache
-def _load(folder: Path) -> Hand:
+def _load(folder: Path, absolute: Path) -> Hand:
+    """The hand in a folder, which messages name as the user does."""
     described = HandDescription.check(read_yaml(folder / DESCRIPTION), folder / DESCRIPTION)
     grips = Grips.check(read_yaml(folder / GRIPS), folder / GRIPS)
     try:
         grips.check_preshapes(len(described.preshape))
     except MisplacedError as error:
         raise InputError(folder / GRIPS, error.key, str(error)) from error
-    return _Reader(folder, described, grips).hand()
+    return replace(_Reader(folder, described, grips).hand(), folder=str(absolute))
 
 
 class _Reader:
@@ -172,7 +175,10 @@ class _Reader:
             if joint.type != "fixed" and joint.name not in named
         ]
         if free:
-            message = f"says nothing about {', '.join(free)}: add to preshape or fingers, or fix"
+            names = ", ".join(free)
+            message = (
+                f"does not mention {names}: add it to preshape or fingers, or fix it in {URDF}"
+            )
             raise InputError(self._folder / DESCRIPTION, "", message)
         longest = max(map(len, chains))
         rows = [chain[place] for place in range(longest) for chain in chains if place < len(chain)]

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from grasptypes.compiled import compiled
-from grasptypes.hands.hand import PALM, Hand
+from grasptypes.hands.hand import PALM
 from grasptypes.hands.states import HandStates
 from grasptypes.settings.synthesis import ClosingSettings
 from grasptypes.synthesis.fields import Field, distance, field_at
@@ -38,7 +38,8 @@ def slide_in(
     Returns:
         (n,) distance moved, metres.
     """
-    poses = open_hands(scene.hand, T_object_hand, preshape).link_poses()
+    hand = scene.hand
+    poses = HandStates(hand, T_object_hand, hand.opened(preshape)).link_poses()
     approach = np.ascontiguousarray(T_object_hand[:, :3, 2])
     return _slide(scene.model, scene.field, poses, approach, reach_m, touch_m)
 
@@ -87,14 +88,6 @@ def _centred(states: HandStates) -> HandStates:
     positions[:, joints] = mean
     T_object_hand = states.T_object_hand.copy()
     T_object_hand[:, :3, 3] += np.einsum("nij,nj->ni", T_object_hand[:, :3, :3], shift)
-    return HandStates(hand, T_object_hand, positions)
-
-
-def open_hands(hand: Hand, T_object_hand: Array, preshape: Array) -> HandStates:
-    """Open hands at poses (n, 4, 4) with preshapes (n, P)."""
-    positions = hand.preshaped(preshape)
-    for finger in hand.fingers:
-        positions[:, list(finger.joints)] = finger.open
     return HandStates(hand, T_object_hand, positions)
 
 

@@ -376,7 +376,7 @@ def test_a_joint_that_nobody_describes_is_named(tmp_path) -> None:
         <child link="spare" /><axis xyz="1 0 0" />
         <limit lower="0" upper="1" effort="1" velocity="1" /></joint></robot>"""
     message = refused(write_hand(tmp_path / "hand", urdf=URDF.replace("</robot>", spare)))
-    assert message.startswith("hand.yaml: says nothing about spare: ")
+    assert message.startswith("hand.yaml: does not mention spare: ")
 
 
 @pytest.mark.parametrize(
