@@ -65,6 +65,11 @@ def hand_parameter(name):
     return {"name": name, "files": files}
 
 
+def labelled_hand(labels):
+    """The name of the hand whose grasps a label source counts."""
+    return Path(config["hand"] if labels == "simulated" else config["published"]["hand"]).name
+
+
 def object_settings(wildcards):
     """What a catalogue object or an own one is prepared with; its contact maps are not."""
     objects = config["objects"]

@@ -17,6 +17,8 @@ rule publish_runs:
     params:
         tracking=settings("tracking"),
         predictors=settings("predictors"),
+        # Of each model, in the order of the inputs.
+        hands=[labelled_hand(labels) for labels in LABELS for _ in MODELS],
         code=script_hash("publish_runs"),
     message:
         "Publishing the models to MLflow"

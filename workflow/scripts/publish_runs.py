@@ -16,7 +16,10 @@ if __name__ == "__main__":
             for name, files in snakemake.input.items()
         }
         files = [inputs.pop(name) for name in ("metrics", "curves", "tensors", "cards")]
-        models = [TrainedModel(*parts, times_ms(parts[-1])) for parts in zip(*files, strict=True)]
+        models = [
+            TrainedModel(*parts, times_ms(parts[-1]), hand)
+            for *parts, hand in zip(*files, snakemake.params.hands, strict=True)
+        ]
         store = Store(TrackingSettings.model_validate(snakemake.params.tracking))
         keys = publish(models, snakemake.params.predictors, inputs, store)
         write_json(snakemake.output.runs, keys)

@@ -80,7 +80,9 @@ def run_record(
     first = metrics.iloc[0]
     fixed = ("labels", "model", "backbone", "weights", "finetune")
     flat = pd.json_normalize(dict(settings)).to_dict("records")[0]
-    params = {name: str(value) for name, value in {**first[list(fixed)], **flat}.items()}
+    stated = {"hand": model.hand, **first[list(fixed)], **flat}
+    params = {name: str(value) for name, value in stated.items()}
+    tags = {"hand": model.hand, **tags}
     shown = json.dumps(params, sort_keys=True).encode()
     key = _digest(model.metrics.read_bytes(), model.curves.read_bytes(), shown)
     children = []

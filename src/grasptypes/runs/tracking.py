@@ -50,13 +50,14 @@ _PARAM_LENGTH = 6000  # MLflow's maximum length of a parameter
 
 @dataclass(frozen=True)
 class TrainedModel:
-    """The files of one training job, and its start and end (milliseconds since 1970)."""
+    """The files of one training job, its times (milliseconds since 1970), and the labels' hand."""
 
     metrics: Path
     curves: Path
     tensors: Path
     card: Path
     times_ms: tuple[int, int]
+    hand: str
 
 
 @dataclass(frozen=True)
@@ -141,8 +142,9 @@ class Store:
         return str(identity)
 
     def offer_view(self, metrics: Sequence[str]) -> None:
-        """Store a view of the runs with these metrics as columns."""
-        state = json.dumps({"selectedColumns": [f"metrics.`{name}`" for name in metrics]})
+        """Store a view of the runs with the hand and these metrics as columns."""
+        columns = ["params.`hand`", *(f"metrics.`{name}`" for name in metrics)]
+        state = json.dumps({"selectedColumns": columns})
         self._client.set_experiment_tag(self._experiment, VIEW_TAG, state)
 
     def log_model(self, run: str, model: TrainedModel, weights: Path, picture: np.ndarray) -> None:

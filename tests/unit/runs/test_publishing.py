@@ -2,6 +2,7 @@
 
 import contextlib
 import hashlib
+import json
 import sqlite3
 import subprocess
 import sys
@@ -22,7 +23,7 @@ from grasptypes.predictors.scoring import CURVE_SCHEMA, METRIC_SCHEMA
 from grasptypes.predictors.weights import WEIGHTS_VARIABLE
 from grasptypes.runs import ui
 from grasptypes.runs.publishing import publish, run_record, version_tags
-from grasptypes.runs.tracking import KEY_TAG, RunRecord, Store, TrainedModel
+from grasptypes.runs.tracking import KEY_TAG, VIEW_TAG, RunRecord, Store, TrainedModel
 from grasptypes.settings.commands import TrackingSettings
 from grasptypes.tables import write_table
 
@@ -55,7 +56,7 @@ def model(tmp_path_factory):
     write_table(pd.DataFrame(curves), root / "curves.csv", CURVE_SCHEMA)
     small_predictor(root, random_weights(root / "random.pth"), "no_task")
     names = ("metrics.csv", "curves.csv", "predictor.safetensors", "predictor.json")
-    return TrainedModel(*(root / name for name in names), TIMES_MS)
+    return TrainedModel(*(root / name for name in names), TIMES_MS, "barrett")
 
 
 @pytest.fixture(scope="module")
@@ -107,6 +108,18 @@ def test_folds_stand_below_their_model_with_the_times_of_the_training(store, mod
     assert parent[2]["angular_similarity_sd"] == pytest.approx(0.0707, abs=1e-4)
     assert (child[1]["fold"], child[2]["angular_similarity"]) == ("1", 0.6)
     assert (child[1]["finetuning.epochs"], child[2]["test_loss"]) == ("3", 3.0)
+
+
+def test_runs_show_the_hand_as_a_tag_and_a_column(store, model):
+    client = mlflow.MlflowClient(store.uri)
+    experiment = client.get_experiment_by_name(store.experiment)
+    runs = client.search_runs([experiment.experiment_id])
+    assert {(run.data.tags["hand"], run.data.params["hand"]) for run in runs} == {
+        ("barrett", "barrett")
+    }
+    assert "params.`hand`" in json.loads(experiment.tags[VIEW_TAG])["selectedColumns"]
+    other = run_record(replace(model, hand="allegro"), SETTINGS, {})
+    assert other.key != run_record(model, SETTINGS, {}).key
 
 
 def test_publishing_again_adds_nothing_and_a_new_store_shows_the_same(store, model, data, tmp_path):

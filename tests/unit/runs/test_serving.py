@@ -24,7 +24,7 @@ def logged(tmp_path_factory):
     weights = random_weights(root / "random.pth")
     small_predictor(root, weights)
     card, tensors = root / "predictor.json", root / "predictor.safetensors"
-    model, store = TrainedModel(root, root, tensors, card, TIMES_MS), store_in(root)
+    model, store = TrainedModel(root, root, tensors, card, TIMES_MS, "barrett"), store_in(root)
     with store.opened():
         run = store.upsert(RUN)
         for _ in range(2):  # not logged twice
