@@ -89,8 +89,8 @@ class HandDescription(Settings):
         "whether the fingers move together, so that the hand gives way sideways until all touch",
         default=False,
     )
-    ends_at_palm: bool = setting(
-        "whether fingers that miss the object are stopped by the palm before their limits",
+    ends_at_hand: bool = setting(
+        "whether the palm and the fingers closed before stop fingers that miss the object",
         default=False,
     )
     drive: Literal["coupled", "direct"] = setting(

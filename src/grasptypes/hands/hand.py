@@ -123,7 +123,7 @@ class Hand:
         fingers: in the order of the description.
         direct: whether each joint has a motor of its own.
         self_centring: whether the fingers move together; then the hand gives way sideways.
-        ends_at_palm: whether fingers that miss the object are stopped by the palm.
+        ends_at_hand: whether the palm and the fingers closed before stop those that miss the object.
         solver_iterations: iterations per time step that a physics engine needs.
         ignored_pairs: pairs of links whose contact does not count.
     """
@@ -136,7 +136,7 @@ class Hand:
     fingers: tuple[Finger, ...]
     direct: bool
     self_centring: bool
-    ends_at_palm: bool
+    ends_at_hand: bool
     motors: MotorDescription
     solver_iterations: int
     ignored_pairs: frozenset[tuple[int, int]]

@@ -118,7 +118,7 @@ class _Reader:
             ),
             direct=described.drive == "direct",
             self_centring=described.self_centring,
-            ends_at_palm=described.ends_at_palm,
+            ends_at_hand=described.ends_at_hand,
             motors=described.motors,
             solver_iterations=described.solver_iterations,
             ignored_pairs=frozenset(self._ignored(carried)),

@@ -41,8 +41,10 @@ class ClosingSettings(Settings):
     """When a moving link stops."""
 
     touch_m: float = setting("distance between touching surfaces", gt=0, le=0.005)
-    palm_depth_m: float = setting(
-        "depth of a fingertip in the palm above which its last motion is taken back", ge=0, le=0.01
+    self_depth_m: float = setting(
+        "depth of a finger in the palm or another finger above which its last motion is taken back",
+        ge=0,
+        le=0.01,
     )
 
 

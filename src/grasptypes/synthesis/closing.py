@@ -10,7 +10,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from grasptypes.compiled import compiled
-from grasptypes.hands.hand import PALM
 from grasptypes.hands.states import HandStates
 from grasptypes.settings.synthesis import ClosingSettings
 from grasptypes.synthesis.fields import Field, distance, field_at
@@ -20,7 +19,7 @@ from grasptypes.synthesis.scene import GraspScene
 Array = NDArray[np.float64]
 
 MAX_STEPS = 60
-# Bisections of a motion that ends in the palm: a thousandth of it remains.
+# Bisections of a motion that ends in the hand itself: a thousandth of it remains.
 HALVINGS = 10
 
 
@@ -51,7 +50,7 @@ def close_fingers(
 
     The joints of a finger move at the rates of its description. If a link is stopped, it and those
     before it stay, and the others go on at their own rates until the last one touches or reaches
-    its limit, or the palm if the hand's fingers reach it.
+    its limit, or the palm or a finger that closed before if the hand's fingers end there.
 
     Args:
         T_object_hand: (n, 4, 4) hands in the object's frame.
@@ -62,11 +61,9 @@ def close_fingers(
     """
     hand = scene.hand
     positions = hand.preshaped(preshape)
-    first = [finger.links[0] for finger in hand.fingers]
-    T_object_rest = T_object_hand[:, None] @ hand.link_poses(positions)[:, first]
+    T_object_rest = T_object_hand[:, None] @ hand.link_poses(positions)
     closed = _close(
-        *(scene.model, scene.field, T_object_hand, T_object_rest),
-        *(settings.touch_m, settings.palm_depth_m),
+        scene.model, scene.field, T_object_rest, settings.touch_m, settings.self_depth_m
     )
     for row, finger in enumerate(hand.fingers):
         positions[:, list(finger.joints)] = closed[:, row, : len(finger.joints)]
@@ -174,30 +171,35 @@ def _moved_along(pose: Array, position: float, prismatic: bool, result: Array) -
 
 @compiled()
 def _close(
-    model: HandModel, grid: Field, T_object_palm: Array, T_object_rest: Array, touch_m: float,
-    palm_depth_m: float,
-) -> Array:  # fmt: skip
-    """Joint positions (n, F, M) of fingers whose first links rest at (n, F, 4, 4)."""
+    model: HandModel, grid: Field, T_object_rest: Array, touch_m: float, self_depth_m: float
+) -> Array:
+    """Joint positions (n, F, M) of fingers; `T_object_rest` (n, L, 4, 4) are the links before."""
     fingers, longest = model.chains.links.shape
     positions = np.zeros((len(T_object_rest), fingers, longest))
     poses, gaps = np.empty((longest, 3, 4)), np.empty(len(model.points))
     travel = np.empty(longest)
     for n in range(len(T_object_rest)):
+        T_object_links = T_object_rest[n].copy()
         for finger in range(fingers):
+            links = model.chains.links[finger, : model.chains.counts[finger]]
+            T_object_base = T_object_rest[n, links[0]]
             stage = _close_finger(
-                model, grid, finger, T_object_rest[n, finger], touch_m, poses, gaps, travel,
+                model, grid, finger, T_object_base, touch_m, poses, gaps, travel,
                 positions[n, finger],
             )  # fmt: skip
-            _leave_palm(
-                model, finger, T_object_palm[n], T_object_rest[n, finger], stage, palm_depth_m,
-                poses, travel, positions[n, finger],
-            )  # fmt: skip
+            if model.ends_at_hand:
+                _leave_hand(
+                    model, finger, T_object_links, T_object_base, stage, self_depth_m, poses,
+                    travel, positions[n, finger],
+                )  # fmt: skip
+                for place in range(len(links)):
+                    T_object_links[links[place], :3] = poses[place]
     return positions
 
 
 @compiled()
 def _close_finger(
-    model: HandModel, grid: Field, finger: int, T_object_rest: Array, touch_m: float,
+    model: HandModel, grid: Field, finger: int, T_object_base: Array, touch_m: float,
     poses: Array, gaps: Array, travel: Array, positions: Array,
 ) -> int:  # fmt: skip
     """Close one finger, and return the number of stopped joints before its last motion.
@@ -211,7 +213,7 @@ def _close_finger(
     stage = 0
     for step_number in range(MAX_STEPS):
         _set_positions(model, finger, travel, positions)
-        _set_poses(model, finger, T_object_rest, positions, poses)
+        _set_poses(model, finger, T_object_base, positions, poses)
         if step_number == 0:
             _bound_gaps(model, grid, finger, poses, gaps)
         room = chains.limits[finger, stage, 1] - chains.open[finger, stage]
@@ -233,42 +235,57 @@ def _close_finger(
         travel[stage] += step
         _narrow_gaps(model, finger, stage, step, gaps)
     _set_positions(model, finger, travel, positions)
-    _set_poses(model, finger, T_object_rest, positions, poses)
+    _set_poses(model, finger, T_object_base, positions, poses)
     last: int = min(stage, count - 1)
     return last
 
 
 @compiled()
-def _leave_palm(
-    model: HandModel, finger: int, T_object_palm: Array, T_object_rest: Array, stage: int,
-    palm_depth_m: float, poses: Array, travel: Array, positions: Array,
+def _leave_hand(
+    model: HandModel, finger: int, T_object_links: Array, T_object_base: Array, stage: int,
+    self_depth_m: float, poses: Array, travel: Array, positions: Array,
 ) -> None:  # fmt: skip
-    """Take the motions of a finger back, the last one first, if its tip is too deep in the palm.
-
-    Half of the depth remains, since the finer check of a grasp finds deeper points.
-    """
-    chains = model.chains
-    tip = chains.counts[finger] - 1
-    link = chains.links[finger, tip]
-    if not model.ends_at_palm:
-        return
-    if overlap(model, link, poses[tip], PALM, T_object_palm) <= palm_depth_m:
+    """Take the motions of a finger back, the last one first, if it is too deep in the hand."""
+    if _depth_in_hand(model, finger, T_object_links, poses) <= self_depth_m:
         return
     for taken_back in range(stage, -1, -1):
         free, whole = 0.0, travel[taken_back]
         for halving in range(HALVINGS):
             travel[taken_back] = (free + 0.5**halving) * whole if halving else 0.0
             _set_positions(model, finger, travel, positions)
-            _set_poses(model, finger, T_object_rest, positions, poses)
-            depth_m = overlap(model, link, poses[tip], PALM, T_object_palm)
-            if depth_m <= palm_depth_m / 2.0:
+            _set_poses(model, finger, T_object_base, positions, poses)
+            if _depth_in_hand(model, finger, T_object_links, poses) <= self_depth_m:
                 free = travel[taken_back] / whole if whole > 0.0 else 0.0
             elif halving == 0:
                 break
         else:
             travel[taken_back] = free * whole
             _set_positions(model, finger, travel, positions)
+            _set_poses(model, finger, T_object_base, positions, poses)
             return
+
+
+@compiled()
+def _depth_in_hand(model: HandModel, finger: int, T_object_links: Array, poses: Array) -> float:
+    """How deep links of a finger at (M, 3, 4) are in the palm and the fingers closed before."""
+    links, depth = model.chains.links, 0.0
+    for row in range(len(model.pairs)):
+        link, other = model.pairs[row]
+        if model.base_of_link[link] != links[finger, 0]:
+            link, other = other, link
+        before = model.base_of_link[other] < 0
+        for closed in range(finger):
+            before = before or model.base_of_link[other] == links[closed, 0]
+        if model.base_of_link[link] == links[finger, 0] and before:
+            for place in range(model.chains.counts[finger]):
+                if links[finger, place] == link:
+                    pose, other_pose = poses[place], T_object_links[other]
+                    depth = max(
+                        depth,
+                        overlap(model, link, pose, other, other_pose),
+                        overlap(model, other, other_pose, link, pose),
+                    )
+    return depth
 
 
 @compiled()

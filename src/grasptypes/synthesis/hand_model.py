@@ -64,8 +64,8 @@ class HandModel(NamedTuple):
     """(L,) the first closing link of each closing link's finger; -1 for other links."""
     is_thumb: NDArray[np.bool_]
     """(L,) whether the link is the last one of a thumb."""
-    ends_at_palm: bool
-    """Whether fingers that miss the object are stopped by the palm."""
+    ends_at_hand: bool
+    """Whether the palm and the fingers closed before stop those that miss the object."""
     pairs: Indices
     """(P, 2) links that may collide: a closing link, and one of another finger or the base."""
 
@@ -124,7 +124,7 @@ def hand_model(
         chains=_chains(hand),
         base_of_link=base_of_link,
         is_thumb=is_thumb,
-        ends_at_palm=hand.ends_at_palm,
+        ends_at_hand=hand.ends_at_hand,
         pairs=_pairs(hand),
     )
 

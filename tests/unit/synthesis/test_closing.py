@@ -2,11 +2,13 @@
 
 import numpy as np
 import pytest
-from synthesis_cases import RADIUS_M, TOUCH_M, closed, palm_at, scene_of
+from synthesis_cases import CLOSING, RADIUS_M, TOUCH_M, closed, palm_at, scene_of
 from tests.unit.barrett import BARRETT, COUPLING
 
-from grasptypes.synthesis.closing import slide_in
+from grasptypes.hands.reading import load_hand
+from grasptypes.synthesis.closing import close_fingers, slide_in
 from grasptypes.synthesis.energy import closeness
+from grasptypes.synthesis.hand_model import hand_model
 
 
 def gaps(T, angles, scene=None):
@@ -55,3 +57,22 @@ def test_finger_stopped_at_its_base_goes_on_with_its_tip() -> None:
     lead = angles[5:] - angles[2:5] * COUPLING
     assert np.all(lead > 0.05)
     assert gaps(T, angles[None], box)[0, 3:6].max() <= TOUCH_M
+
+
+@pytest.mark.parametrize("grip", ["wrap", "enclose", "tripod", "pinch"])
+@pytest.mark.parametrize("name", ["allegro", "robotiq_3f"])
+def test_free_fingers_end_at_the_palm_or_at_the_fingers_closed_before(name, grip) -> None:
+    hand = load_hand(name)
+    preshapes = np.array(hand.grips.named(grip).preshapes)
+    model = hand_model(hand, 0.006, 0.012, 0.004, 0.02)
+    scene = scene_of()._replace(hand=hand, model=model)
+    T_object_hand = np.repeat(palm_at(5.0), len(preshapes), axis=0)
+
+    def depth_m(scene):
+        hands = close_fingers(scene, T_object_hand, preshapes, CLOSING)
+        return closeness(scene, hands.link_poses()).self_depth_m.max()
+
+    assert depth_m(scene) <= CLOSING.self_depth_m
+    passing = scene._replace(model=model._replace(ends_at_hand=False))
+    if grip == "wrap":
+        assert depth_m(passing) > CLOSING.self_depth_m
