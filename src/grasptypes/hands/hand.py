@@ -123,7 +123,7 @@ class Hand:
         fingers: in the order of the description.
         direct: whether each joint has a motor of its own.
         self_centring: whether the fingers move together; then the hand gives way sideways.
-        ends_at_hand: whether the palm and the fingers closed before stop those that miss the object.
+        ends_at_hand: whether the palm and fingers closed before stop those that miss the object.
         solver_iterations: iterations per time step that a physics engine needs.
         ignored_pairs: pairs of links whose contact does not count.
     """
