@@ -34,6 +34,7 @@ def run(args: argparse.Namespace) -> str:
     from grasptypes.hands.checking import check_hand
     from grasptypes.hands.folders import DESCRIPTION, hand_folder
     from grasptypes.hands.reading import load_hand
+    from grasptypes.planning.plan_contacts import missing_types
     from grasptypes.settings.params import checkout_params
 
     hand = load_hand(args.hand)
@@ -47,8 +48,10 @@ def run(args: argparse.Namespace) -> str:
         path = hand_folder(args.hand) / DESCRIPTION
         raise InputErrors(InputError(path, "", line) for line in found)
     mass_kg = sum(link.mass_kg for link in hand.links)
+    missing = ", ".join(missing_types(hand)) or "none"
     return (
         f"{hand.title}: {len(hand.fingers)} fingers, {len(hand.joints)} joints, {mass_kg:.3f} kg, "
         f"fingers of {1e3 * hand.finger_length_m:.0f} mm\n"
-        f"degrees of freedom: {', '.join(hand.dof_names)}\nno mistake found\n"
+        f"degrees of freedom: {', '.join(hand.dof_names)}\n"
+        f"grasp types that it cannot form: {missing}\nno mistake found\n"
     )

@@ -14,6 +14,7 @@ from grasptypes.contact_maps.contact_evidence import GRIP_OF_TYPE
 from grasptypes.contact_maps.contact_map import ContactMap, MapTask, Session, of_sessions
 from grasptypes.contact_maps.measured_contacts import draw_measured_session, read_probability
 from grasptypes.errors import InputError
+from grasptypes.hands.hand import Hand
 from grasptypes.objects.contact_scan import ContactScan, read_contact_scan
 
 
@@ -40,6 +41,11 @@ class PlanContacts(NamedTuple):
 def grips_of(types: Sequence[str]) -> tuple[str, ...]:
     """The grips that people use for some of `grasp_type.GRASP_TYPES`, without duplicates."""
     return tuple(dict.fromkeys(GRIP_OF_TYPE[kind] for kind in types))
+
+
+def missing_types(hand: Hand, types: Sequence[str] = tuple(GRIP_OF_TYPE)) -> list[str]:
+    """Those of the grasp types whose grip the hand cannot perform."""
+    return [kind for kind in types if GRIP_OF_TYPE[kind] in hand.grips.instead]
 
 
 def plan_contacts(

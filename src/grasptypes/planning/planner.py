@@ -16,7 +16,12 @@ from grasptypes.hands.reading import load_hand
 from grasptypes.labels.grasp import Grasp, grasps_of
 from grasptypes.labels.grasp_type import GRASP_TYPES
 from grasptypes.objects.object_geometry import ObjectGeometry
-from grasptypes.planning.plan_contacts import MeasuredMap, grips_of, plan_contacts
+from grasptypes.planning.plan_contacts import (
+    MeasuredMap,
+    grips_of,
+    missing_types,
+    plan_contacts,
+)
 from grasptypes.planning.sessions import PlanningContext, plan_sessions
 from grasptypes.renders.mesh_views import MESH_WORD
 from grasptypes.settings.params import Params, checkout_params
@@ -127,6 +132,8 @@ class Planner:
         source = object.source or object.name
         wanted = self.check_request(task, types, object.properties.mass_kg, source)
         request = GraspTypeRequest(wanted) if wanted else self._predicted(object, task)
+        if missing := missing_types(self.hand, request.types):
+            self.tell(f"{self.hand.title} cannot form {', '.join(missing)}: other grips are tried")
         settings = self.params.contact_maps.changed(sessions=sessions or self.params.plan.sessions)
         name, seed_number = (MESH_WORD, task), self.params.seed
         drawn = MapTask.of_object(object, name, seed_number, settings)

@@ -16,11 +16,13 @@ from grasptypes.contact_maps.contact_map import MapTask
 from grasptypes.contact_maps.measured_contacts import draw_measured_session
 from grasptypes.errors import InputError
 from grasptypes.exchange import dexgraspbench, graspit_world, multigrippergrasp
+from grasptypes.hands.reading import load_hand
 from grasptypes.labels.grasp_type import GRASP_TYPES
 from grasptypes.labels.published import read_published
 from grasptypes.objects.loading import load_object
 from grasptypes.planning import plan_contacts as plan_contacts_module
-from grasptypes.planning.plan_contacts import MeasuredMap, grips_of, plan_contacts
+from grasptypes.planning.plan_contacts import MeasuredMap, grips_of, missing_types, plan_contacts
+from grasptypes.planning.planner import Planner
 from grasptypes.planning.sessions import choose, ranked
 from grasptypes.predictors.weights import WEIGHTS_VARIABLE
 from grasptypes.settings.params import read_params
@@ -244,3 +246,13 @@ def test_the_help_lists_all_types():
 
 def test_all_types_have_a_grip():
     assert set(grips_of(GRASP_TYPES[:-1])) == {"wrap", "enclose", "tripod", "pinch"}
+
+
+def test_a_gripper_reports_the_types_that_it_cannot_form_in_one_line(checkout, mesh, capsys):
+    jaws = load_hand("franka_hand")
+    assert missing_types(jaws) == ["Power Sphere", "Precision Sphere"]
+    assert missing_types(BARRETT) == []
+    lines: list[str] = []
+    planner = Planner(checkout, hand="franka_hand", tell=lines.append)
+    planner.plan(load_object(mesh, "mm"), "use", ["Power Sphere", "Precision"], sessions=1)
+    assert "Franka Hand cannot form Power Sphere: other grips are tried" in lines
