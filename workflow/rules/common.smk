@@ -8,6 +8,7 @@ from grasptypes.labels.label_sources import (
     published_address,
     published_path,
 )
+from grasptypes.objects.mesh_companions import companions
 from grasptypes.objects.own_objects import measured_map
 from grasptypes.objects.reference_meshes import reference_meshes
 from grasptypes.objects.variants import all_objects, all_variants, base_of
@@ -109,9 +110,12 @@ def view_count(wildcards):
     return PARAMS.objects.variant_views if variant else PARAMS.renders.views
 
 
-def own_mesh(wildcards):
-    """The mesh of an own object; a catalogue object has none."""
-    return config["objects"]["own"].get(wildcards.object, {}).get("file", [])
+def own_files(wildcards):
+    """The mesh of an own object and its materials; a catalogue object has none."""
+    if wildcards.object not in PARAMS.objects.own:
+        return []
+    mesh = PARAMS.objects.own[wildcards.object].file
+    return [mesh, *companions(mesh)]
 
 
 def measured_input(wildcards):

@@ -3,7 +3,7 @@
 
 rule prepare_object:
     input:
-        own=own_mesh,
+        own=own_files,
     output:
         visual="data/objects/{object}/visual.glb",
         surface="data/objects/{object}/surface.npz",
@@ -14,7 +14,7 @@ rule prepare_object:
         object="|".join(name for name in OBJECTS if name not in VARIANTS),
     params:
         settings=object_settings,
-        own=lambda wildcards: hashes(own_mesh(wildcards)),
+        own=lambda wildcards: hashes(own_files(wildcards)),
         code=script_hash("prepare_object"),
     message:
         "Preparing {wildcards.object}"

@@ -10,7 +10,8 @@ import torch
 
 from grasptypes.files import write_npz
 from grasptypes.jobs import job
-from grasptypes.objects.preparation import scaled_parts, visual_glb
+from grasptypes.objects.parts import ImportedModel
+from grasptypes.objects.preparation import visual_glb
 from grasptypes.objects.variants import variant_names
 from grasptypes.objects.variation import build_variant
 from grasptypes.predictors.backbone import load_backbone
@@ -25,7 +26,8 @@ from grasptypes.settings.renders import CameraSettings
 def variant_parts(name: str, objects: Mapping[str, Any], seed: int) -> list[Part]:
     """The visible parts of a variant; `objects` is the section of params.yaml."""
     model = build_variant(name, VariationRanges.check(objects["variation"]), seed)
-    content = visual_glb(scaled_parts(model, objects["scale"]), objects["resolution"]["crease_deg"])
+    sized = ImportedModel(model, objects["scale"])
+    content = visual_glb(sized, objects["resolution"]["crease_deg"])
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "visual.glb"
         path.write_bytes(content)

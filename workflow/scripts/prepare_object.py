@@ -10,7 +10,7 @@ from grasptypes.objects.preparation import prepare
 from grasptypes.settings.objects import ImportLimits, OwnObject, Resolution
 
 if __name__ == "__main__":
-    with job(snakemake.log) as log:
+    with job(snakemake.log):
         name, settings = snakemake.wildcards.object, snakemake.params.settings
         if "own" in settings:
             limits = ImportLimits.check(settings["import"])
@@ -19,5 +19,3 @@ if __name__ == "__main__":
             found = ImportedModel(build(name), settings["scale"])
         folder = Path(snakemake.output.properties).parent
         prepare(name, found, Resolution.check(settings["resolution"]), folder)
-        for repair in found.repairs:
-            log.warning("%s: %s", snakemake.input.own, repair)

@@ -43,7 +43,9 @@ def main(arguments: Sequence[str] | None = None) -> None:
     exits with 130, a closed pipe with 141, as in shells.
     """
     args = parser().parse_args(arguments)
-    logging.basicConfig(level=logging.ERROR)
+    logging.addLevelName(logging.WARNING, "warning")
+    logging.basicConfig(level=logging.ERROR, format="%(levelname)s: %(message)s")
+    logging.getLogger("grasptypes").setLevel(logging.WARNING)
     logging.getLogger("PIL").setLevel(logging.CRITICAL)  # its errors about images are raised, too
     warnings.simplefilter("ignore")
     try:

@@ -10,9 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from grasptypes.errors import InputError
-from grasptypes.objects.ply_file import Element, ply_points, read_ply
-
-TEXTURE_COORDINATES = {"s", "t", "u", "v", "texture_u", "texture_v", "texcoord"}
+from grasptypes.objects.ply_file import Element, has_texture, ply_points, read_ply
 
 
 @dataclass(frozen=True)
@@ -59,8 +57,7 @@ def _red_channel(path: Path, elements: Mapping[str, Element]) -> NDArray[np.floa
     """Return the red channel (V,), 0 to 255."""
     vertex = elements["vertex"]
     if not {"red", "green", "blue"} <= set(vertex.columns):
-        coordinates = {*vertex.columns, *(elements["face"].lists if "face" in elements else ())}
-        if coordinates & TEXTURE_COORDINATES:
+        if has_texture(elements):
             raise InputError(path, "", "has a texture, but vertex colours are needed")
         raise InputError(path, "", "has no vertex colours: the red channel is the contact map")
     red, most = vertex.columns["red"], 1 if vertex.types["red"] in "fd" else 255

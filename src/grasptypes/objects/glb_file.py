@@ -1,4 +1,4 @@
-"""Meshes of a binary glTF 2.0 (GLB), each with its pieces, one a material."""
+"""Meshes and colours of a binary glTF 2.0 (GLB), each mesh with its pieces, one a material."""
 
 from __future__ import annotations
 
@@ -11,22 +11,39 @@ from typing import Any
 
 import numpy as np
 import trimesh
+from numpy.typing import NDArray
+from PIL import Image
+from trimesh.visual.material import PBRMaterial
 
 from grasptypes.errors import InputError, parsing
+from grasptypes.objects.parts import Material
+from grasptypes.objects.surface_colours import PAPER, FaceColours, Look, encoded
 
 # Extensions that leave shapes alone, and the one that is decoded here.
 _HARMLESS = (
     "KHR_materials_", "KHR_texture_", "KHR_lights_", "KHR_xmp", "KHR_animation_", "EXT_texture_",
     "EXT_lights_", "MSFT_texture_", "KHR_mesh_quantization",
 )  # fmt: skip
+# Textures that are moved, turned or scaled.
+_MOVED_TEXTURE = "KHR_texture_transform"
 # The file can be read without it, but shows one copy of many.
 _REPEATING = "EXT_mesh_gpu_instancing"
 _FLOAT, _INTEGERS = 5126, {5120: "<i1", 5121: "<u1", 5122: "<i2", 5123: "<u2"}
+# Attributes that KHR_mesh_quantization may store as integers, and their numbers of columns.
+_FLOATS = {"POSITION": 3, "TEXCOORD_0": 2}
 _TRIANGLES, _STRIP, _FAN = 4, 5, 6
 
 
-def read_glb(path: Path) -> dict[str, list[trimesh.Trimesh]]:
+def read_glb(
+    path: Path, remarks: list[str]
+) -> tuple[dict[str, list[trimesh.Trimesh]], list[FaceColours | None]]:
     """Read the meshes of the file's scene by the names of their nodes, in the scene's frame.
+
+    Args:
+        remarks: receives which textures are missing.
+
+    Returns:
+        The pieces of each mesh, and the colours of all pieces in the same order.
 
     Raises:
         InputError: the file is no GLB, or needs an extension or feature that is not supported.
@@ -39,15 +56,17 @@ def read_glb(path: Path) -> dict[str, list[trimesh.Trimesh]]:
             io.BytesIO(content),
             file_type="glb",
             process=False,
-            skip_materials=True,
             resolver=trimesh.resolvers.FilePathResolver(str(path)),
         )
         placed = _placed(scene)
+        _check_textures(header, scene, remarks)
         stated = sum(_triangle_counts(header))
-    read = sum(len(piece.faces) for pieces in placed.values() for piece in pieces)
+    shown = [piece for pieces in placed.values() for piece in pieces]
+    read = sum(len(mesh.faces) for mesh, _ in shown)
     if read != stated:
         raise InputError(path, "", f"has {stated} triangles, but only {read} could be read")
-    return placed
+    meshes = {name: [mesh for mesh, _ in pieces] for name, pieces in placed.items()}
+    return meshes, [colours for _, colours in shown]
 
 
 def _chunks(content: bytes) -> tuple[dict[str, Any], bytes]:
@@ -123,18 +142,18 @@ def _deformations(header: dict[str, Any]) -> Iterator[str]:
 
 
 def _with_floats(header: dict[str, Any], data: bytes) -> bytes:
-    """Decode positions stored as integers (KHR_mesh_quantization); the header is changed."""
-    for primitive in _primitives(header):
-        accessor = header["accessors"][primitive["attributes"]["POSITION"]]
-        if accessor["componentType"] == _FLOAT:
+    """Decode positions and texture coordinates stored as integers; the header is changed."""
+    for name, used in (pair for p in _primitives(header) for pair in p["attributes"].items()):
+        accessor = header["accessors"][used]
+        if name not in _FLOATS or accessor["componentType"] == _FLOAT:
             continue
         kind = np.dtype(_INTEGERS[accessor["componentType"]])
         view = header["bufferViews"][accessor["bufferView"]]
         if view["buffer"] != 0:
-            raise ValueError("its positions are in another file")
+            raise ValueError("its data are in another file")
         start = view.get("byteOffset", 0) + accessor.get("byteOffset", 0)
-        steps = (view.get("byteStride", 3 * kind.itemsize), kind.itemsize)
-        values = np.ndarray((accessor["count"], 3), kind, data, start, steps)
+        steps = (view.get("byteStride", _FLOATS[name] * kind.itemsize), kind.itemsize)
+        values = np.ndarray((accessor["count"], _FLOATS[name]), kind, data, start, steps)
         positions = values.astype(np.float64)
         if accessor.get("normalized"):
             positions = np.maximum(positions / np.iinfo(kind).max, -1)
@@ -166,9 +185,11 @@ def _triangle_counts(header: dict[str, Any]) -> Iterator[int]:
             yield max(corners - 2, 0)
 
 
-def _placed(scene: trimesh.Scene) -> dict[str, list[trimesh.Trimesh]]:
+def _placed(
+    scene: trimesh.Scene,
+) -> dict[str, list[tuple[trimesh.Trimesh, FaceColours | None]]]:
     """The scene's meshes in its frame, each with its pieces, one a material."""
-    pieces: dict[str, list[trimesh.Trimesh]] = {}
+    pieces: dict[str, list[tuple[trimesh.Trimesh, FaceColours | None]]] = {}
     for node in scene.graph.nodes_geometry:
         transform, name = scene.graph[node]
         mesh = scene.geometry[name]
@@ -178,5 +199,53 @@ def _placed(scene: trimesh.Scene) -> dict[str, list[trimesh.Trimesh]]:
         owner = scene.graph.transforms.parents[node] if is_piece else node
         copy = trimesh.Trimesh(mesh.vertices, mesh.faces, process=False)
         copy.apply_transform(transform)
-        pieces.setdefault(str(owner), []).append(copy)
+        pieces.setdefault(str(owner), []).append((copy, _colours(mesh.visual, copy.faces)))
     return pieces
+
+
+def _colours(visual: Any, faces: NDArray[np.int64]) -> FaceColours | None:
+    """The colours of a piece; None if it has neither material nor colours of vertices."""
+    material, corners = getattr(visual, "material", None), faces.reshape(-1)
+    if material is not None:
+        tints, look = visual.vertex_attributes.get("color"), _look(material)
+    elif visual.kind == "vertex":
+        tints, look = visual.vertex_colors, Look(PAPER)
+    else:
+        return None
+    tint = np.ones((len(corners), 3))
+    if tints is not None:
+        tint = trimesh.visual.color.to_float(tints)[corners, :3].astype(np.float64)
+    uv = getattr(visual, "uv", None)
+    places = np.zeros((len(corners), 2)) if uv is None else np.asarray(uv, np.float64)[corners]
+    return FaceColours((look,), np.zeros(len(faces), dtype=np.int64), tint, places)
+
+
+def _look(material: PBRMaterial) -> Look:
+    """A material with the defaults of glTF 2.0, section 5.22; its factors are linear."""
+    factor = material.baseColorFactor
+    rgba = np.ones(4) if factor is None else np.array(factor) / 255
+    red, green, blue = encoded(rgba[:3]).tolist()
+    metallic = 1.0 if material.metallicFactor is None else float(material.metallicFactor)
+    roughness = 1.0 if material.roughnessFactor is None else float(material.roughnessFactor)
+    base = Material((red, green, blue, float(rgba[3])), metallic, roughness)
+    image = material.baseColorTexture
+    return Look(base, None if image is None else np.asarray(image.convert("RGB")))
+
+
+def _check_textures(header: dict[str, Any], scene: trimesh.Scene, remarks: list[str]) -> None:
+    """Mention textures that could not be read, or are shown in another place than stated."""
+    stated = [
+        material.get("pbrMetallicRoughness", {}).get("baseColorTexture")
+        for material in (
+            header["materials"][p["material"]] for p in _primitives(header) if "material" in p
+        )
+    ]
+    images = [
+        getattr(getattr(mesh.visual, "material", None), "baseColorTexture", None)
+        for mesh in (scene.geometry[scene.graph[node][1]] for node in scene.graph.nodes_geometry)
+    ]
+    missing = sum(bool(t) for t in stated) - sum(isinstance(i, Image.Image) for i in images)
+    if missing > 0:
+        remarks.append("a texture is missing: it cannot be read as an image")
+    if any(t.get("texCoord") or _MOVED_TEXTURE in t.get("extensions", {}) for t in stated if t):
+        remarks.append(f"{_MOVED_TEXTURE} and texCoord are ignored: textures may be misplaced")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 from pathlib import Path
 
 import igl
@@ -15,15 +16,16 @@ from grasptypes.objects import solids
 from grasptypes.objects.bodies import BODY, assembled, closed_bodies, concatenated, tidied
 from grasptypes.objects.mesh_files import read_meshes
 from grasptypes.objects.mesh_limits import check_size, check_volume
-from grasptypes.objects.parts import ImportedModel, Material, ObjectModel, Part
+from grasptypes.objects.parts import ImportedModel, ObjectModel, Part
+from grasptypes.objects.surface_colours import GREY, joined
 from grasptypes.objects.units import UNITS_M
 from grasptypes.settings.objects import ImportLimits, OwnObject
 
-GREY = Material((0.62, 0.62, 0.60, 1.0), roughness=0.6)
+LOGGER = logging.getLogger("grasptypes")
 
 
 def import_model(own: OwnObject, limits: ImportLimits) -> ImportedModel:
-    """Make a model of a user's mesh.
+    """Make a model of a user's mesh; what was repaired or ignored is logged.
 
     Args:
         limits: what the mesh must meet.
@@ -33,7 +35,7 @@ def import_model(own: OwnObject, limits: ImportLimits) -> ImportedModel:
     """
     path, unit, scale = own.file, own.unit, own.scale
     repairs: list[str] = []
-    meshes = read_meshes(Path(path), limits, repairs)
+    meshes, face_colours = read_meshes(Path(path), limits, repairs)
     pieces = [piece for some in meshes.values() for piece in some]
     for piece in pieces:
         piece.apply_scale(UNITS_M[unit])
@@ -43,7 +45,9 @@ def import_model(own: OwnObject, limits: ImportLimits) -> ImportedModel:
         found, cavities = assembled(bodies, repairs)
     else:
         found = {BODY: _rebuild(path, tidied(concatenated(pieces), []), limits, repairs)}
-    parts = tuple(Part(name, solid, GREY) for name, solid in found.items())
+    colours = joined([piece.triangles for piece in pieces], face_colours, limits.colour_cells)
+    material = colours.material()
+    parts = tuple(Part(name, solid, material or GREY) for name, solid in found.items())
     check_volume(path, sum(part.solid.volume() for part in parts), pieces, limits)
     if cavities is not None and own.shell_thickness_m is not None:
         message = (
@@ -53,8 +57,13 @@ def import_model(own: OwnObject, limits: ImportLimits) -> ImportedModel:
         raise InputError(path, "", message)
     # With a given mass any density will do: the inertia is scaled to the mass.
     density = own.density_kg_m3 or 1e3
-    model = ObjectModel(parts, density, own.shell_thickness_m, cavities)
-    return ImportedModel(model, scale, own.mass_kg, tuple(dict.fromkeys(repairs)))
+    model = ObjectModel(
+        parts, density, own.shell_thickness_m, cavities, None if material else colours
+    )
+    repairs = list(dict.fromkeys(repairs))
+    for repair in repairs:
+        LOGGER.warning("%s: %s", path, repair)
+    return ImportedModel(model, scale, own.mass_kg, tuple(repairs))
 
 
 def _rebuild(

@@ -1,9 +1,15 @@
 """Object models: named solids with materials and densities."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 from types import SimpleNamespace
+from typing import TYPE_CHECKING
 
 from manifold3d import Manifold
+
+if TYPE_CHECKING:
+    from grasptypes.objects.surface_colours import SurfaceColours
 
 
 class Size(SimpleNamespace):
@@ -53,12 +59,14 @@ class ObjectModel:
         shell_thickness_m: wall thickness if the real object is hollow and the model solid.
         cavities: closed hollows inside the parts' solids; they count for mass and inertia alone,
             since neither hand nor camera reaches them.
+        colours: of the surface of a user's mesh, instead of the parts' materials.
     """
 
     parts: tuple[Part, ...]
     density_kg_m3: float
     shell_thickness_m: float | None = None
     cavities: Manifold | None = None
+    colours: SurfaceColours | None = None
 
 
 @dataclass(frozen=True)

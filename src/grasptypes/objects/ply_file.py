@@ -14,12 +14,14 @@ from numpy.typing import ArrayLike, NDArray
 
 from grasptypes.errors import InputError
 from grasptypes.objects.polygons import PolygonMesh
+from grasptypes.objects.surface_colours import PAPER, FaceColours, Look, linear
 
 _TYPES = {
     "char": "b", "uchar": "B", "short": "h", "ushort": "H", "int": "i", "uint": "I",
     "float": "f", "double": "d", "int8": "b", "uint8": "B", "int16": "h", "uint16": "H",
     "int32": "i", "uint32": "I", "float32": "f", "float64": "d",
 }  # fmt: skip
+_TEXTURE = {"s", "t", "u", "v", "texture_u", "texture_v", "texcoord"}
 _ORDERS = {"ascii": "", "binary_little_endian": "<", "binary_big_endian": ">"}
 
 
@@ -79,15 +81,65 @@ def read_ply(path: Path) -> dict[str, Element]:
     return {element.name: element for element in elements}
 
 
-def ply_faces(path: Path, elements: Mapping[str, Element]) -> PolygonMesh:
-    """Faces and strips of triangles; raises InputError if it has no vertices or bad faces."""
+def ply_faces(path: Path, elements: Mapping[str, Element], remarks: list[str]) -> PolygonMesh:
+    """Faces and strips of triangles with the colours of vertices or faces.
+
+    Args:
+        remarks: receives which colours are ignored.
+
+    Raises:
+        InputError: there are no vertices, or bad faces.
+    """
     faces, strips = (_vertex_lists(path, elements, name) for name in ("face", "tristrips"))
     if (faces.sizes < 3).any():
         raise InputError(path, "face", "one has fewer than three corners")
     triangles = _strip_triangles(strips)
     corners = np.concatenate([faces.values.astype(np.int64), triangles.ravel()])
     sizes = np.concatenate([faces.sizes, np.full(len(triangles), 3)])
-    return PolygonMesh(ply_points(path, elements), corners, sizes)
+    colours = _face_colours(elements, corners, sizes, remarks)
+    return PolygonMesh(ply_points(path, elements), corners, sizes, colours)
+
+
+def has_texture(elements: Mapping[str, Element]) -> bool:
+    """Whether the vertices or faces have texture coordinates."""
+    names = {*elements["vertex"].columns} if "vertex" in elements else set()
+    return bool(names.union(elements["face"].lists if "face" in elements else ()) & _TEXTURE)
+
+
+def _face_colours(
+    elements: Mapping[str, Element],
+    corners: NDArray[np.int64],
+    sizes: NDArray[np.int64],
+    remarks: list[str],
+) -> FaceColours | None:
+    """The colours of the faces' corners; None if there are none."""
+    of_vertices, of_faces = (_rgb(elements, name, remarks) for name in ("vertex", "face"))
+    if of_vertices is not None:
+        # A vertex that is missing is reported with the faces.
+        tint = of_vertices[np.clip(corners, 0, max(len(of_vertices) - 1, 0))]
+    elif of_faces is not None and len(of_faces) == len(sizes):
+        tint = np.repeat(of_faces, sizes, axis=0)
+    else:
+        if has_texture(elements):
+            remarks.append("the texture of a PLY is ignored: save it as colours of vertices")
+        return None
+    look = np.zeros(len(sizes), dtype=np.int64)
+    return FaceColours((Look(PAPER),), look, tint, np.zeros((len(corners), 2)))
+
+
+def _rgb(
+    elements: Mapping[str, Element], name: str, remarks: list[str]
+) -> NDArray[np.float64] | None:
+    """Linear colours (N, 3) of an element's rows; None if there are none."""
+    element = elements.get(name, Element(name, 0))
+    if not {"red", "green", "blue"} <= set(element.columns):
+        return None
+    colours = np.column_stack([element.columns[c] for c in ("red", "green", "blue")])
+    most = 1 if element.types["red"] in "fd" else np.iinfo(element.types["red"]).max
+    if not ((colours >= 0) & (colours <= most)).all():
+        remarks.append(f"colours of the element {name} are ignored: they must be from 0 to {most}")
+        return None
+    return linear(colours / most)
 
 
 def _vertex_lists(path: Path, elements: Mapping[str, Element], name: str) -> Ragged:

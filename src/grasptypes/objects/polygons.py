@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from grasptypes.objects.solids import plane_triangles
+from grasptypes.objects.surface_colours import FaceColours
 
 # Rounding of coordinates in files stays below this share of a face's area.
 AREA_TOLERANCE = 1e-4
@@ -27,25 +28,28 @@ class PolygonMesh:
         vertices: (V, 3) in the file's unit.
         corners: (C,) vertex indices of all faces, one face after the other.
         sizes: (F,) number of corners of each face, at least 3.
+        colours: of the faces; None if the file has none.
     """
 
     vertices: Array
     corners: Indices
     sizes: Indices
+    colours: FaceColours | None = None
 
     def triangles(self) -> tuple[Indices, list[str]]:
-        """Triangles (T, 3) in the order of the faces, and remarks about doubtful faces.
+        """Triangles in the order of the faces, and remarks about doubtful faces.
 
-        Every edge of a face remains an edge of a triangle, so that closed meshes stay closed.
+        They are (T, 3) indices into `corners`; a face with N corners has N - 2. Every edge of a
+        face remains an edge of a triangle, so that closed meshes stay closed.
         """
         starts = np.cumsum(self.sizes) - self.sizes
         triangles, owners, crossing, bent = [], [], 0, 0
         for size in np.unique(self.sizes):
             which = np.flatnonzero(self.sizes == size)
-            corners = self.corners[starts[which][:, None] + np.arange(size)]
+            corners = starts[which][:, None] + np.arange(size)
             cut = _fan(corners)
             if size > 3:
-                points = self.vertices[corners]
+                points = self.vertices[self.corners[corners]]
                 offsets = points - points[:, :1]
                 normals = np.cross(offsets, np.roll(offsets, -1, axis=1)).sum(axis=1)
                 bent += int(_are_bent(points, normals).sum())

@@ -16,6 +16,7 @@ from grasptypes.objects.distance_grid import DistanceGrid
 from grasptypes.objects.object_files import Properties, Surface
 from grasptypes.objects.object_geometry import ObjectGeometry
 from grasptypes.objects.parts import ImportedModel, Material, ObjectModel, Part
+from grasptypes.objects.surface_colours import SurfaceColours, linear
 from grasptypes.settings.objects import Resolution
 
 
@@ -36,7 +37,7 @@ def prepare(
         folder / object_files.COLLISION, [solids.to_mesh(hull) for hull in hulls]
     )
     grid.save(folder / object_files.DISTANCE_GRID)
-    write_bytes(folder / object_files.VISUAL, visual_glb(parts, resolution.crease_deg))
+    write_bytes(folder / object_files.VISUAL, visual_glb(imported, resolution.crease_deg))
     return ObjectGeometry(folder, properties)
 
 
@@ -112,35 +113,60 @@ def physical_properties(name: str, imported: ImportedModel) -> Properties:
     )
 
 
-def visual_glb(parts: list[Part], crease_deg: float) -> bytes:
-    """Return a binary glTF of the visible surface of each part, with smooth normals."""
-    solid = joined(parts).calculate_normals(0, crease_deg)
+def visual_glb(imported: ImportedModel, crease_deg: float) -> bytes:
+    """Return a binary glTF of the visible surface of each part, with smooth normals.
+
+    A part whose surface has several materials has one mesh for each.
+    """
+    parts, solid, colours = _coloured(imported)
+    solid = solid.calculate_normals(0, crease_deg)
     mesh = solid.to_mesh64()
     vertices, normals = np.split(np.asarray(mesh.vert_properties)[:, :6], 2, axis=1)
     faces = np.asarray(mesh.tri_verts)
     owners = face_parts(solid, parts)
+    looks = np.zeros_like(owners) if colours is None else colours.at(vertices[faces].mean(1))[0]
     scene = trimesh.Scene()
-    for index, part in enumerate(parts):
-        used, local = np.unique(faces[owners == index], return_inverse=True)
-        if len(used) == 0:
-            continue
+    for index, look in np.unique([owners, looks], axis=1).T.tolist():
+        part, called = parts[index], f"{parts[index].name}_{index}"
+        used, local = np.unique(faces[(owners == index) & (looks == look)], return_inverse=True)
         shown = trimesh.Trimesh(
             vertices[used], local.reshape(-1, 3), vertex_normals=normals[used], process=False
         )
-        shown.visual = trimesh.visual.TextureVisuals(material=_pbr(part.name, part.material))
-        called = f"{part.name}_{index}"
+        material, rgb = part.material, None
+        if colours:
+            called += f"_{look}"
+            material, rgb = colours.of_vertices(look, _beside(shown))
+        shown.visual = trimesh.visual.TextureVisuals(material=_pbr(part.name, material))
+        if rgb is not None:
+            rgba = np.column_stack([rgb, np.ones(len(rgb))])
+            shown.visual.vertex_attributes["color"] = np.round(255 * rgba).astype(np.uint8)
         scene.add_geometry(shown, geom_name=called, node_name=called)
     return bytes(scene.export(file_type="glb", include_normals=True))
+
+
+def _beside(mesh: trimesh.Trimesh) -> NDArray[np.float64]:
+    """Points (V, 3) beside the vertices, each in one of the faces that meet there."""
+    points = np.array(mesh.vertices)
+    points[mesh.faces.reshape(-1)] = np.repeat(mesh.triangles_center, 3, axis=0)
+    return np.asarray(0.95 * mesh.vertices + 0.05 * points)
+
+
+def _coloured(imported: ImportedModel) -> tuple[list[Part], Manifold, SurfaceColours | None]:
+    """The parts, their union and its colours; its faces are small where colours may vary."""
+    model, scale = imported.model, imported.scale
+    parts = scaled_parts(model, scale)
+    if model.colours is None:
+        return parts, joined(parts), None
+    colours = model.colours.scaled(scale)
+    return parts, joined(parts).refine_to_length(colours.spacing_m), colours
 
 
 def _pbr(name: str, material: Material) -> trimesh.visual.material.PBRMaterial:
     """The material for glTF, whose colours are linear (glTF 2.0, section 3.9.2)."""
     *srgb, opacity = material.base_color
-    encoded = np.array(srgb)
-    linear = np.where(encoded <= 0.04045, encoded / 12.92, ((encoded + 0.055) / 1.055) ** 2.4)
     return trimesh.visual.material.PBRMaterial(
         name=name,
-        baseColorFactor=np.round(np.append(linear, opacity) * 255).astype(np.uint8),
+        baseColorFactor=np.round(np.append(linear(np.array(srgb)), opacity) * 255).astype(np.uint8),
         metallicFactor=material.metallic,
         roughnessFactor=material.roughness,
         alphaMode="OPAQUE" if opacity >= 1.0 else "BLEND",

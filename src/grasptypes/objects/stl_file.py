@@ -9,15 +9,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from grasptypes.errors import InputError
-from grasptypes.objects.obj_file import decoded
 from grasptypes.objects.polygons import PolygonMesh
+from grasptypes.objects.text_lines import decoded
 
 _RECORD = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
 _SOLID = re.compile(r"^[ \t]*(end)?solid\b.*$", re.IGNORECASE | re.MULTILINE)
 
 
-def read_stl(path: Path) -> list[PolygonMesh]:
+def read_stl(path: Path, remarks: list[str]) -> list[PolygonMesh]:
     """Read all solids; words may be in capitals.
+
+    Args:
+        remarks: receives that colours are ignored.
 
     Raises:
         InputError: the file is truncated, or no STL.
@@ -26,7 +29,10 @@ def read_stl(path: Path) -> list[PolygonMesh]:
     faces = int.from_bytes(content[80:84], "little")
     # Binary files may begin with "solid", too, and some programs leave a few bytes at the end.
     if faces and 0 <= len(content) - 84 - 50 * faces < 50:
-        points = np.frombuffer(content, _RECORD, faces, offset=84)["corners"].reshape(-1, 3)
+        records = np.frombuffer(content, _RECORD, faces, offset=84)
+        if records["attribute"].any():
+            remarks.append("colours of an STL are ignored: programs disagree on their meaning")
+        points = records["corners"].reshape(-1, 3)
         return [_mesh(points.astype(np.float64), [3] * faces)]
     text = decoded(content).replace("\0", "").replace("\r", "\n")
     text = re.sub(r"(?i)\bend[ \t]+(?=(solid|facet|loop)\b)", "end", text)

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from grasptypes.objects.mesh_import import import_model
-from grasptypes.objects.preparation import scaled_parts, visual_glb
+from grasptypes.objects.preparation import visual_glb
 from grasptypes.renders.renderer import Camera
 from grasptypes.renders.scene import load_parts
 from grasptypes.settings.objects import OwnObject
@@ -29,7 +29,7 @@ def mesh_views(own: OwnObject, params: Params) -> np.ndarray:
     crease_deg = params.objects.resolution.crease_deg
     with tempfile.TemporaryDirectory() as folder:
         visual = Path(folder) / "visual.glb"
-        visual.write_bytes(visual_glb(scaled_parts(found.model, found.scale), crease_deg))
+        visual.write_bytes(visual_glb(found, crease_deg))
         return views(visual, params.renders, params.predict.views)
 
 

@@ -64,7 +64,13 @@ class Camera:
         scene = pyrender.Scene(bg_color=(0, 0, 0, 0), ambient_light=(settings.ambient,) * 3)
         materials = [_material(pyrender, part) for part in parts]
         primitives = [
-            pyrender.Primitive(part.vertices, part.normals, indices=part.faces, material=material)
+            pyrender.Primitive(
+                part.vertices,
+                part.normals,
+                color_0=part.tints,
+                indices=part.faces,
+                material=material,
+            )
             for part, material in zip(parts, materials, strict=True)
         ]
         scene.add(pyrender.Mesh(primitives))

@@ -35,6 +35,7 @@ class Part:
         base_colour: (3,) linear RGB in [0, 1].
         metallic: glTF metallic factor in [0, 1].
         roughness: glTF roughness factor in [0, 1].
+        tints: (V, 3) factor on the base colour at each vertex; None if it is the same everywhere.
     """
 
     vertices: np.ndarray
@@ -43,6 +44,7 @@ class Part:
     base_colour: np.ndarray
     metallic: float
     roughness: float
+    tints: np.ndarray | None = None
 
 
 def load_parts(path: str | Path) -> list[Part]:
@@ -60,9 +62,9 @@ def load_parts(path: str | Path) -> list[Part]:
         T_object_node, name = scene.graph[node]
         mesh = scene.geometry[name]
         if isinstance(mesh, trimesh.Trimesh) and len(mesh.faces):
-            grouped.setdefault(_material(mesh), []).append(
-                mesh.copy().apply_transform(T_object_node)
-            )
+            placed = mesh.copy().apply_transform(T_object_node)
+            placed.visual = mesh.visual  # its copy has no vertex colours
+            grouped.setdefault(_material(mesh), []).append(placed)
     if not grouped:
         raise InputError(path, "", "has no faces")
     return [_part(material, meshes) for material, meshes in grouped.items()]
@@ -80,15 +82,27 @@ def _material(mesh: trimesh.Trimesh) -> tuple[float, ...]:
 
 
 def _part(material: tuple[float, ...], meshes: Sequence[trimesh.Trimesh]) -> Part:
+    colours = np.concatenate([_vertex_colours(mesh) for mesh in meshes])
+    # The base colour is the mean one, which recolouring replaces.
+    mean = np.maximum(colours.mean(axis=0), 1e-3)
     offsets = np.cumsum([0] + [len(mesh.vertices) for mesh in meshes])
     return Part(
         vertices=np.concatenate([mesh.vertices for mesh in meshes]),
         normals=np.concatenate([mesh.vertex_normals for mesh in meshes]),
         faces=np.concatenate([mesh.faces + k for mesh, k in zip(meshes, offsets, strict=False)]),
-        base_colour=np.array(material[:3]),
+        base_colour=np.array(material[:3]) * mean,
         metallic=material[3],
         roughness=material[4],
+        tints=None if (colours == mean).all() else colours / mean,
     )
+
+
+def _vertex_colours(mesh: trimesh.Trimesh) -> np.ndarray:
+    """Linear colours (V, 3) of the vertices; white where the file has none."""
+    colours = getattr(mesh.visual, "vertex_attributes", {}).get("color")
+    if colours is None:
+        return np.ones((len(mesh.vertices), 3))
+    return np.asarray(colours[:, :3], dtype=float) / 255
 
 
 def recolour(parts: Sequence[Part], amount: float, rng: np.random.Generator) -> list[Part]:

@@ -105,6 +105,9 @@ class ImportLimits(Settings):
     max_size_m: float = setting("largest allowed longest extent", gt=0)
     max_box_m3: float = setting("largest allowed volume of the bounding box", gt=0)
     rebuild_cells: int = setting("cells along the longest extent of a rebuilt mesh", ge=16, le=512)
+    colour_cells: int = setting(
+        "colours are sampled at this many points along the longest extent", ge=16, le=512
+    )
     max_open_share: Share = setting("share of enclosed space of uncertain winding number")
     max_faces: int = setting("maximum number of faces of a mesh", ge=4)
     max_file_mb: float = setting("largest size of a mesh file", gt=0)

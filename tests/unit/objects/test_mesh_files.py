@@ -48,8 +48,7 @@ def check(path: Path, content: str | bytes, expected: Prism, bodies: int = 1) ->
     """A file has the surface and volume of the expected solids, and is one closed `body`."""
     path.write_bytes(content.encode() if isinstance(content, str) else content)
     remarks: list[str] = []
-    meshes = read_meshes(path, LIMITS, remarks)
-    read = concatenated(meshes["body"])
+    read = concatenated(read_meshes(path, LIMITS, remarks).meshes["body"])
     assert remarks == []
     assert read.area == pytest.approx(bodies * expected.area_m2, rel=1e-5)
     assert read.volume == pytest.approx(bodies * expected.volume_m3, rel=1e-5)
@@ -95,8 +94,13 @@ def test_ways_to_write_an_obj(tmp_path, content):
 
 def test_materials_of_an_obj_do_not_divide_it(tmp_path):
     """Not even if each material has vertices of its own."""
-    check(tmp_path / "a.obj", obj(V, T[:9]) + "usemtl wood\n" + obj(NONE, T[9:]), BRACKET)
-    halves = obj(V, T[:9]) + "usemtl wood\n" + obj(V, []) + obj(NONE, SECOND[9:])
+    (tmp_path / "a.mtl").write_text("newmtl wood\nKd 1 0 0\n")
+    check(
+        tmp_path / "a.obj",
+        "mtllib a.mtl\n" + obj(V, T[:9]) + "usemtl wood\n" + obj(NONE, T[9:]),
+        BRACKET,
+    )
+    halves = "mtllib a.mtl\n" + obj(V, T[:9]) + "usemtl wood\n" + obj(V, []) + obj(NONE, SECOND[9:])
     check(tmp_path / "b.obj", halves, BRACKET)
 
 
@@ -229,7 +233,7 @@ def test_quantized_positions_are_decoded(tmp_path, kind, normalized):
         extensionsRequired=["KHR_mesh_quantization"],
     )
     (tmp_path / "a.glb").write_bytes(content)
-    read = concatenated(read_meshes(tmp_path / "a.glb", LIMITS, [])["body"])
+    read = concatenated(read_meshes(tmp_path / "a.glb", LIMITS, []).meshes["body"])
     assert read.extents == pytest.approx([0.06, 0.05, 0.03], abs=0.06 / largest)
     assert read.is_watertight
 
