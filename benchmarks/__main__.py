@@ -52,7 +52,7 @@ def measured(parts: list[str], settings: Mapping[str, Any], params: Params) -> I
 
 def main() -> None:
     """Command line."""
-    parser = argparse.ArgumentParser(description=__doc__)
+    parser = argparse.ArgumentParser(description="Print all benchmarks, or some of them.")
     parser.add_argument("parts", nargs="*", metavar="PART", help=", ".join(PARTS))
     asked = parser.parse_args().parts
     if unknown := set(asked) - set(PARTS):

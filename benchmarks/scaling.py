@@ -129,7 +129,9 @@ def with_growth(rows: list[dict[str, Any]]) -> pd.DataFrame:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser = argparse.ArgumentParser(
+        description="Time and memory of the workflow against the number of objects."
+    )
     parser.add_argument("--objects", type=int, nargs="+", default=[19, 38, 76])
     parser.add_argument("--keep", action="store_true", help="go on from the sizes there are")
     parser.add_argument("--plan-only", action="store_true", help="measure the dry run alone")

@@ -44,7 +44,7 @@ def manifest(options: argparse.Namespace) -> dict[str, Any]:
 
 def main() -> None:
     """Command line: what the job needs, where it runs, and its script."""
-    parser = argparse.ArgumentParser(description=__doc__)
+    parser = argparse.ArgumentParser(description="Run a job script as a Kubernetes Job.")
     parser.add_argument("--image", required=True)
     parser.add_argument("--claim", required=True, help="claim of the shared volume")
     parser.add_argument("--mount", required=True, help="where the volume is mounted, in every pod")

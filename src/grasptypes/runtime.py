@@ -36,12 +36,14 @@ def pin_runtime(environment: MutableMapping[str, str] = os.environ) -> None:
     """Set the variables that libraries read on import, for this process and its children.
 
     Every entry point must call this before NumPy is imported, since imported libraries keep their
-    settings. Figures are only drawn to files, so `MPLBACKEND` is overridden too. A user without a
-    home folder gets a temporary one for caches.
+    settings. Figures are only drawn to files, so `MPLBACKEND` is overridden too, and pyrender needs
+    assertions (see `renders.gl_platform`). A user without a home folder gets a temporary one for
+    caches.
     """
     environment.update(ONE_THREAD)
     environment["PYTHONHASHSEED"] = "0"
     environment["MPLBACKEND"] = "Agg"
+    environment.pop("PYTHONOPTIMIZE", None)
     if not has_home(environment):
         environment["HOME"] = str(Path(tempfile.gettempdir(), f"grasptypes-{os.getuid()}"))
     if "avx2" in processor_features():

@@ -98,6 +98,7 @@ ELSEWHERE = {
     "MLFLOW_TRACKING_URI": "http://127.0.0.1:1",
     "DVC_SITE_CACHE_DIR": "/proc/none",
     "PYTHONWARNINGS": "error",
+    "PYTHONOPTIMIZE": "2",
 }
 NOBODY = """
 import os, pwd

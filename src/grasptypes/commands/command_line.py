@@ -30,8 +30,9 @@ def parser() -> argparse.ArgumentParser:
     whole = _Parser("grasptypes", description="Which grasp should a robot hand use?")
     commands = whole.add_subparsers(dest="command", required=True, metavar="COMMAND")
     for name, module in COMMANDS.items():
-        summary = str(module.__doc__).splitlines()[0]
-        command = commands.add_parser(name, help=summary, description=summary, allow_abbrev=False)
+        command = commands.add_parser(
+            name, help=module.SUMMARY, description=module.SUMMARY, allow_abbrev=False
+        )
         module.add_arguments(command)
     return whole
 

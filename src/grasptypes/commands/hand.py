@@ -1,4 +1,4 @@
-"""Check the description of a hand, and draw it.
+"""The command `hand`.
 
 Prints a line for everything that looks wrong; the exit status is 1 if anything does.
 """
@@ -10,6 +10,8 @@ from pathlib import Path
 
 from grasptypes.commands.settings import add_folder, check_target
 from grasptypes.errors import InputError, InputErrors
+
+SUMMARY = "Check the description of a hand, and draw it."
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

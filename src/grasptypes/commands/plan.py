@@ -1,4 +1,4 @@
-"""Plan grasps of a mesh for a task: searched, tested in physics, labelled and ranked.
+"""The command `plan`.
 
 Heavy libraries are imported after the arguments have been checked.
 """
@@ -14,6 +14,7 @@ from grasptypes.errors import InputError
 from grasptypes.files import json_text
 from grasptypes.objects.units import UNITS_M
 
+SUMMARY = "Plan grasps of a mesh for a task: searched, tested in physics, labelled and ranked."
 # `GRASP_TYPES` without the last, for a fast help text; a test keeps both consistent.
 TYPES = "Large Wrap, Medium Wrap, Small Wrap, Power Sphere, Precision Sphere, Precision"
 

@@ -1,4 +1,4 @@
-"""Predict the grasp types of an image, a folder of images, or a mesh.
+"""The command `predict`.
 
 Heavy libraries are imported after the arguments have been checked.
 """
@@ -20,6 +20,7 @@ from grasptypes.renders.photos import check_photo, photo_files, read_background,
 from grasptypes.settings.commands import PhotoLimits
 from grasptypes.settings.params import checkout_params
 
+SUMMARY = "Predict the grasp types of an image, a folder of images, or a mesh."
 # A figure with more rows is too tall for image viewers.
 MAX_ROWS = 40
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import ctypes
 import ctypes.util
 import os
+import sys
 
 from grasptypes.errors import InputError
 
@@ -19,8 +20,11 @@ def choose_platform() -> str:
 
     Raises:
         InputError: neither works, or not the requested one; the message names the missing
-            packages.
+            packages. Or Python runs without assertions, in which pyrender starts OpenGL.
     """
+    if sys.flags.optimize:
+        message = "OpenGL needs Python's assertions: run Python without -O and PYTHONOPTIMIZE"
+        raise InputError("python -O", "", message)
     asked = os.environ.get(PLATFORM_VARIABLE)
     if not asked:
         for name, works in _PLATFORMS.items():
