@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from grasptypes.hands.description import GRIPS
-from grasptypes.hands.hand import PALM, Finger, Hand
+from grasptypes.hands.hand import PALM, Finger, Hand, beyond
 from grasptypes.hands.states import HandStates
 from grasptypes.hands.surface import depth_in_link, surface_points
 
@@ -16,6 +16,8 @@ Array = NDArray[np.float64]
 
 # Motion of a joint that shows its direction.
 TRIAL_RAD, TRIAL_M = 0.1, 0.002
+# How far a position may lie outside its limits, which descriptions round.
+LIMIT_RAD, LIMIT_M = 1e-3, 1e-4
 # Bullet keeps links 1 mm apart; a hub may reach that far into its neighbour's neighbour.
 DEPTH_M = 0.001
 SPACING_M = 0.004
@@ -68,8 +70,8 @@ def _preshapes(hand: Hand) -> Iterator[str]:
             yield f"preshape {name}: its joints' limits leave no common range"
     for preshape in preshapes(hand):
         values = np.array(preshape)
-        outside = (values < limits[:, 0] - 1e-3) | (values > limits[:, 1] + 1e-3)
-        for index in np.flatnonzero(outside):
+        tolerance = np.where(hand.prismatic_dofs[: len(hand.preshape)], LIMIT_M, LIMIT_RAD)
+        for index in np.flatnonzero(beyond(values, limits, tolerance)):
             name, (low, high) = list(hand.preshape)[index], limits[index]
             yield f"grips: {name} = {values[index]:g} is not between {low:.4g} and {high:.4g}"
 
@@ -77,8 +79,12 @@ def _preshapes(hand: Hand) -> Iterator[str]:
 def _finger(hand: Hand, finger: Finger) -> Iterator[str]:
     """Its open position, direction of closing, coupling and angles."""
     limits = hand.joint_limits[list(finger.joints)]
-    for name, start, (low, high) in zip(_names(hand, finger), finger.open, limits, strict=True):
-        if not low - 1e-3 <= start <= high + 1e-3:
+    tolerance = np.where(hand.prismatic_joints[list(finger.joints)], LIMIT_M, LIMIT_RAD)
+    shut = beyond(finger.open, limits, tolerance)
+    for name, start, (low, high), wrong in zip(
+        _names(hand, finger), finger.open, limits, shut, strict=True
+    ):
+        if wrong:
             yield f"joint {name}: opens at {start:g}, outside its limits {low:.4g} to {high:.4g}"
             return
     state = open_states(hand, [preshapes(hand)[0]])
@@ -94,8 +100,9 @@ def _finger(hand: Hand, finger: Finger) -> Iterator[str]:
             yield f"joint {name}: opens finger {finger.name}: turn its axis round"
     travel = (limits[0, 1] - finger.open[0]) / finger.rates[0, 0]
     ends = finger.open + finger.rates[0] * travel
-    for name, end, (low, high) in zip(_names(hand, finger), ends, limits, strict=True):
-        if not hand.direct and not low - 1e-3 <= end <= high + 1e-3:
+    past = beyond(ends, limits, tolerance) & (not hand.direct)
+    for name, end, (low, high), wrong in zip(_names(hand, finger), ends, limits, past, strict=True):
+        if wrong:
             yield f"joint {name}: the coupling drives it to {end:.4g}, beyond {low:.4g}, {high:.4g}"
     for name, said, seen in zip(
         _names(hand, finger), finger.bend_rad, _bends(hand, finger), strict=True

@@ -174,6 +174,17 @@ class Hand:
         return np.array([*ends, *(self.joint_limits[f.joints[0]] for f in self.fingers)])
 
     @cached_property
+    def prismatic_joints(self) -> NDArray[np.bool_]:
+        """(J,) which joints have positions in metres."""
+        return np.array([joint.prismatic for joint in self.joints])
+
+    @cached_property
+    def prismatic_dofs(self) -> NDArray[np.bool_]:
+        """(D,) which degrees of freedom are in metres."""
+        shared = [next(iter(_turned(joints))) for joints in self.preshape.values()]
+        return self.prismatic_joints[[*shared, *(f.joints[0] for f in self.fingers)]]
+
+    @cached_property
     def finger_links(self) -> tuple[int, ...]:
         """Indices of all closing links, ascending."""
         return tuple(sorted(link for finger in self.fingers for link in finger.links))
@@ -309,8 +320,16 @@ class Hand:
                 done += travel[..., None] * finger.rates[place]
         return lag
 
-    def beyond_limits(self, joint_positions: ArrayLike, tolerance: float) -> NDArray[np.bool_]:
-        """Which joint positions (..., J) exceed the limits by more than a tolerance, rad or m."""
+    def beyond_limits(
+        self, joint_positions: ArrayLike, tolerance_rad: float, tolerance_m: float = 0.0
+    ) -> NDArray[np.bool_]:
+        """Which joint positions (..., J) exceed the limits by more than a tolerance.
+
+        Args:
+            tolerance_rad: of revolute joints.
+            tolerance_m: of prismatic joints.
+        """
+        tolerance = np.where(self.prismatic_joints, tolerance_m, tolerance_rad)
         return beyond(joint_positions, self.joint_limits, tolerance)
 
 
@@ -319,7 +338,7 @@ def _turned(joints: dict[int, float]) -> dict[int, float]:
     return {joint: factor for joint, factor in joints.items() if factor}
 
 
-def beyond(values: ArrayLike, limits: Array, tolerance: float) -> NDArray[np.bool_]:
-    """Which values (..., n) lie outside limits (n, 2) by more than a tolerance."""
-    values = np.asarray(values, dtype=np.float64)
-    return (values < limits[:, 0] - tolerance) | (values > limits[:, 1] + tolerance)
+def beyond(values: ArrayLike, limits: Array, tolerance: ArrayLike) -> NDArray[np.bool_]:
+    """Which values (..., n) lie outside limits (n, 2) by more than tolerances (n,)."""
+    values, tolerance = np.asarray(values, np.float64), np.asarray(tolerance, np.float64)
+    return np.asarray((values < limits[:, 0] - tolerance) | (values > limits[:, 1] + tolerance))

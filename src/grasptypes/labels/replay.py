@@ -112,7 +112,10 @@ def replay_object(
     """One row of the replay table: an object's published configurations on its mesh."""
     fit = fit_hands(hand, configurations, mesh, settings.surface_spacing_m)
     dofs = configuration.unpack(configurations).dofs
-    exceeding = beyond(dofs, hand.dof_limits, settings.limit_tolerance_rad)
+    tolerance = np.where(
+        hand.prismatic_dofs, settings.limit_tolerance_m, settings.limit_tolerance_rad
+    )
+    exceeding = beyond(dofs, hand.dof_limits, tolerance)
     return {
         "object": name,
         "n": len(configurations),

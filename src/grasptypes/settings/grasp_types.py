@@ -91,3 +91,6 @@ class ReplaySettings(Settings):
     limit_tolerance_rad: float = setting(
         "how far an angle may exceed the real hand's limit", ge=0, le=0.2
     )
+    limit_tolerance_m: float = setting(
+        "how far the position of a prismatic joint may", ge=0, le=0.02
+    )

@@ -14,9 +14,17 @@ class ValiditySettings(Settings):
     touch_m: float = setting(
         "distance below which a planned finger counts as touching", ge=0, le=0.005
     )
-    limit_tolerance_rad: float = setting("how far a joint may exceed its limit", ge=0, le=0.2)
+    limit_tolerance_rad: float = setting(
+        "how far a revolute joint may exceed its limit", ge=0, le=0.2
+    )
+    limit_tolerance_m: float = setting(
+        "how far a prismatic joint may exceed its limit", ge=0, le=0.02
+    )
     lag_tolerance_rad: float = setting(
-        "how far a joint may be behind the motion of its coupled finger", ge=0, le=0.2
+        "how far a revolute joint may be behind the motion of its coupled finger", ge=0, le=0.2
+    )
+    lag_tolerance_m: float = setting(
+        "how far a prismatic joint may be behind the motion of its coupled finger", ge=0, le=0.02
     )
 
 

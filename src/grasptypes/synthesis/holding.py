@@ -13,7 +13,7 @@ from grasptypes.settings.physics import PhysicsSettings
 Array = NDArray[np.float64]
 
 # A joint this far behind its previous position is being driven back: 0.1 mm at the fingertip.
-DRIVEN_BACK = 0.001
+DRIVEN_BACK_RAD, DRIVEN_BACK_M = 0.001, 0.0001
 
 
 class Contact(NamedTuple):
@@ -59,7 +59,9 @@ class Motors:
 
     def __init__(self, hand: Hand, positions: Array, settings: PhysicsSettings) -> None:
         self.hand = hand
-        self.stages = [_stage(finger, hand.lag(positions)) for finger in hand.fingers]
+        self._driven_back = np.where(hand.prismatic_joints, DRIVEN_BACK_M, DRIVEN_BACK_RAD)
+        ahead = np.abs(hand.lag(positions)) >= self._driven_back
+        self.stages = [_stage(finger, ahead) for finger in hand.fingers]
         """Number of stopped joints of each finger."""
         self._interval_s = settings.timestep_s * settings.control_steps
         self._reached = positions.copy()
@@ -93,7 +95,7 @@ class Motors:
         stop = hand.joint_limits[:, 1]
         way = np.minimum(self._reached, stop) - positions
         closing = np.minimum(speeds, (stop - positions) / self._interval_s)
-        withstands = ~moves | (way > DRIVEN_BACK) | (positions > stop)
+        withstands = ~moves | (way > self._driven_back) | (positions > stop)
         force_n = np.where(withstands, motors.passive_force_n, motors.fingertip_force_n)
         force_n[follows & moves] = 0.0
         return np.where(withstands, way / self._interval_s, closing), force_n * self._levers
@@ -120,7 +122,10 @@ class Motors:
         return np.asarray(np.linalg.norm(ways, axis=2).max(axis=0))
 
 
-def _stage(finger: Finger, lag: Array) -> int:
-    """Number of joints of a finger that have been stopped before its last joint that moved on."""
-    ahead = np.abs(lag[list(finger.joints)]) >= DRIVEN_BACK
-    return int(np.flatnonzero(ahead).max(initial=0))
+def _stage(finger: Finger, ahead: NDArray[np.bool_]) -> int:
+    """Number of joints of a finger that have been stopped before its last joint that moved on.
+
+    Args:
+        ahead: (J,) whether a joint has left the coupled motion.
+    """
+    return int(np.flatnonzero(ahead[list(finger.joints)]).max(initial=0))

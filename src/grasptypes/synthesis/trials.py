@@ -186,8 +186,13 @@ class GraspTester:
 
     def _beyond_limits(self, positions: Array) -> bool:
         hand, validity = self.scene.hand, self.validity
-        beyond = hand.beyond_limits(positions, validity.limit_tolerance_rad).any()
-        return bool(beyond or hand.lag(positions).max() > validity.lag_tolerance_rad)
+        beyond = hand.beyond_limits(
+            positions, validity.limit_tolerance_rad, validity.limit_tolerance_m
+        )
+        tolerance = np.where(
+            hand.prismatic_joints, validity.lag_tolerance_m, validity.lag_tolerance_rad
+        )
+        return bool(beyond.any() or (hand.lag(positions) > tolerance).any())
 
 
 def _until_kept(

@@ -89,6 +89,14 @@ def test_limits_drives_and_friction_are_those_of_the_urdf(hand: Hand) -> None:
     np.testing.assert_array_equal(hand.dof_limits, [[-0.5, 0.4], [0, 1.5], [0, 0.04]])
 
 
+def test_tolerances_of_limits_are_radians_or_metres(hand: Hand) -> None:
+    """0.01 rad beyond a limit is little, 0.01 m is a quarter of what the thumb moves."""
+    positions = hand.joint_limits[:, 1] + 0.01
+    assert hand.beyond_limits(positions, 0.02, 0.001).tolist() == hand.prismatic_joints.tolist()
+    assert hand.beyond_limits(positions, 0.001, 0.02).tolist() == [True, True, False, True, True]
+    assert hand.prismatic_dofs.tolist() == [False, False, True]
+
+
 def test_links_move_as_yourdfpy_moves_them(hand: Hand, original, positions) -> None:
     poses = hand.link_poses(positions)
     turned = poses[:, :, :3, :3] @ np.swapaxes(poses[0, :, :3, :3], -1, -2)

@@ -17,7 +17,9 @@ from grasptypes.labels.published import read_published
 from grasptypes.objects.distance_grid import signed_distance
 from grasptypes.settings.grasp_types import ReplaySettings
 
-SETTINGS = ReplaySettings(object_scale=1.0, surface_spacing_m=0.004, limit_tolerance_rad=1e-3)
+SETTINGS = ReplaySettings(
+    object_scale=1.0, surface_spacing_m=0.004, limit_tolerance_rad=1e-3, limit_tolerance_m=1e-6
+)
 # An open hand above the ground, its palm facing down.
 DOWN = np.diag([1.0, -1.0, -1.0, 1.0])
 OPEN_RAD = np.zeros(4)
