@@ -32,13 +32,14 @@ demo: setup ## the whole pipeline on 2 objects, in build/demo
 	cd build/demo && snakemake -j$(JOBS) reports/table1.csv && cat reports/table1.md
 
 # The folder has its own parameters, data, models, reports and dvc.lock; DVC's cache and MLflow's store are shared.
-# In the parameters, so that a later `snakemake` or `dvc repro` in that folder does the same.
+# It starts with the results at hand, so that only what depends on the hand is computed.
 HAND ?=
 HAND_FOLDER = hands/$(notdir $(HAND))
 .PHONY: hand
 hand: setup ## the main job with another hand, on a branch in hands/HAND: make hand HAND=robotiq_3f
 	@test -n "$(HAND)" || { echo "error: name the hand: make hand HAND=robotiq_3f" >&2; exit 1; }
 	test -e $(HAND_FOLDER) || git worktree add $(HAND_FOLDER) -b hand-$(notdir $(HAND))
+	test -e $(HAND_FOLDER)/data -o ! -e data || cp -r --reflink=auto .snakemake data $(HAND_FOLDER)
 	cd $(HAND_FOLDER) && sed -i 's|^hand: .*|hand: $(HAND)|; s|database: mlflow.db|database: ../../mlflow.db|' params.yaml
 	cd $(HAND_FOLDER) && dvc cache dir --local ../../.dvc/cache && dvc repro
 
