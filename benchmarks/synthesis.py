@@ -17,6 +17,8 @@ from grasptypes.contact_maps.contact_map_files import read_contact_map
 from grasptypes.hands.reading import load_hand
 from grasptypes.hands.states import HandStates
 from grasptypes.objects.object_geometry import read_object
+from grasptypes.physics.bullet_engine import BulletEngine, bullet_engine
+from grasptypes.physics.holding import hold
 from grasptypes.seeds import rng
 from grasptypes.settings.params import Params
 from grasptypes.settings.synthesis import SynthesisSettings
@@ -24,7 +26,6 @@ from grasptypes.synthesis.candidates import Demonstration, draw_candidates
 from grasptypes.synthesis.energy import closeness, draw_targets, energies
 from grasptypes.synthesis.fields import distances
 from grasptypes.synthesis.hand_model import sample_hand
-from grasptypes.synthesis.physics import Physics, physics
 from grasptypes.synthesis.scene import GraspScene, grasp_scene
 from grasptypes.synthesis.search import search_session
 from grasptypes.synthesis.trials import (
@@ -51,9 +52,9 @@ def measure(settings: Mapping[str, Any], params: Params) -> Iterator[Figure]:
     hand, surface_m = load_hand(params.hand), task.contact_map.points.astype(np.float64)
     models = sample_hand(hand, params.synthesis)
     scene = grasp_scene(hand, models.search, task.geometry, surface_m)
-    with physics(hand, task.geometry, params.physics.test) as world:
+    with bullet_engine(hand, task.geometry, params.physics.test) as world:
         check = scene._replace(model=models.check)
-        tester = GraspTester(check, world, params.physics.validity)
+        tester = GraspTester(check, partial(hold, world), params.physics.validity)
         case = Case(task, scene, tester, params.synthesis)
         yield _candidates(case, settings["rounds"])
         tests = _tests(case, world, settings["rounds"])
@@ -98,27 +99,27 @@ def _place(case: Case, demonstration: Demonstration, draw: np.random.Generator) 
     energies(scene.model, poses, closeness(scene, poses), targets, settings.energy)
 
 
-def _tests(case: Case, world: Physics, rounds: int) -> Figure:
+def _tests(case: Case, world: BulletEngine, rounds: int) -> Figure:
     """The test of a grasp that holds, compared with as many bare time steps of hand and object."""
     hands = _holding(case, world)
     before = world.steps
-    hold = partial(world.hold, hands.T_object_hand[0], hands.joint_positions[0])
-    hold()
+    test = partial(hold, world, hands.T_object_hand[0], hands.joint_positions[0])
+    test()
     steps = world.steps - before
 
     def step() -> None:
         for _ in range(steps):
-            pybullet.stepSimulation(physicsClientId=world._client)
+            pybullet.stepSimulation(physicsClientId=world.client)
 
-    taken_s = seconds(hold, step, rounds=rounds, clock=time.process_time)
+    taken_s = seconds(test, step, rounds=rounds, clock=time.process_time)
     return rates("physics tests, beside their bare time steps", "1/s", taken_s, done=1)
 
 
-def _holding(case: Case, world: Physics) -> HandStates:
+def _holding(case: Case, world: BulletEngine) -> HandStates:
     """The best grasp of the first session whose best grasp holds."""
     for number, demonstration in enumerate(demonstrations(case.task.contact_map)):
         draw = rng("benchmark", number)
         hands = search_session(case.scene, demonstration, case.settings, draw).hands
-        if not world.hold(hands.T_object_hand[0], hands.joint_positions[0]).dropped:
+        if not hold(world, hands.T_object_hand[0], hands.joint_positions[0]).dropped:
             return hands
     raise NotReady("no session's best grasp holds")

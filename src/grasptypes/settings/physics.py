@@ -1,8 +1,12 @@
-"""Section `physics`: which grasps are valid, and the test in PyBullet."""
+"""Section `physics`: which grasps are valid, and the test in a physics engine."""
 
 from __future__ import annotations
 
+from typing import Literal
+
 from grasptypes.settings.base import Settings, setting
+
+EngineName = Literal["pybullet", "mujoco"]
 
 
 class ValiditySettings(Settings):
@@ -28,8 +32,18 @@ class ValiditySettings(Settings):
     )
 
 
+class MujocoSettings(Settings):
+    """How MuJoCo computes contacts; they have elliptic friction cones."""
+
+    margin_m: float = setting("distance from the hand at which contacts push", ge=0, le=0.005)
+    impratio: float = setting("stiffness of friction relative to that along normals", ge=1, le=1000)
+    noslip_iterations: int = setting("iterations that remove the remaining slip", ge=0, le=100)
+    contact_time_s: float = setting("time constant in which contacts yield", ge=0.001, le=0.1)
+    motor_mass_kg: float = setting("inertia of motor and gears at the fingertip", ge=0, le=1)
+
+
 class PhysicsSettings(Settings):
-    """The test in PyBullet."""
+    """The test in a physics engine."""
 
     timestep_s: float = setting("time step", ge=0.0001, le=0.01)
     friction: float = setting("Coulomb coefficient between hand and object", ge=0, le=5)
@@ -44,6 +58,7 @@ class PhysicsSettings(Settings):
     drop_distance_m: float = setting("movement in the hand that counts as dropped", gt=0, le=1)
     drop_rotation_rad: float = setting("rotation in the hand that counts as dropped", gt=0, le=3.15)
     shake: bool = setting("apply gravity from six sides in turn and take the worst")
+    mujoco: MujocoSettings
 
 
 class GraspTestSettings(Settings):

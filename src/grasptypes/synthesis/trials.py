@@ -20,6 +20,9 @@ from grasptypes.hands.hand import Hand
 from grasptypes.hands.states import HandStates
 from grasptypes.hands.surface import depth_in_hand
 from grasptypes.objects.object_geometry import ObjectGeometry
+from grasptypes.physics.engine import Contact
+from grasptypes.physics.engines import engine
+from grasptypes.physics.holding import HoldResult, hold
 from grasptypes.seeds import rng, seed
 from grasptypes.settings.physics import GraspTestSettings, ValiditySettings
 from grasptypes.settings.synthesis import SynthesisSettings
@@ -27,8 +30,6 @@ from grasptypes.synthesis.candidates import Demonstration
 from grasptypes.synthesis.energy import closeness
 from grasptypes.synthesis.grasps import ENERGY_TERMS
 from grasptypes.synthesis.hand_model import sample_hand
-from grasptypes.synthesis.holding import Contact
-from grasptypes.synthesis.physics import Physics, physics
 from grasptypes.synthesis.preshape_cost import preshape_cost
 from grasptypes.synthesis.scene import GraspScene, grasp_scene
 from grasptypes.synthesis.search import RankedGrasps, search_session
@@ -76,8 +77,8 @@ def synthesize(
     surface_m, models = task.contact_map.points.astype(np.float64), sample_hand(hand, settings)
     search = grasp_scene(hand, models.search, task.geometry, surface_m)
     check = search._replace(model=models.check)
-    with physics(hand, task.geometry, test.test) as world:
-        tester = GraspTester(check, world, test.validity)
+    with engine("pybullet", hand, task.geometry, test.test) as world:
+        tester = GraspTester(check, partial(hold, world), test.validity)
         return synthesize_sessions(task, search, tester, settings)
 
 
@@ -133,11 +134,17 @@ class GraspTester:
 
     Args:
         scene: scene with the fine hand.
+        hold: the physics test, of a pose (4, 4) and joint positions (J,).
     """
 
-    def __init__(self, scene: GraspScene, world: Physics, validity: ValiditySettings) -> None:
+    def __init__(
+        self,
+        scene: GraspScene,
+        hold: Callable[[Array, Array], HoldResult],
+        validity: ValiditySettings,
+    ) -> None:
         self.scene = scene
-        self.world = world
+        self.hold = hold
         self.validity = validity
 
     def try_grasp(self, T_object_hand: Array, joint_positions: Array) -> GraspTrial:
@@ -147,7 +154,7 @@ class GraspTester:
         planned = GraspTrial(reason, T_object_hand, joint_positions, depth, 0.0, 0.0, [])
         if reason:
             return planned
-        held = self.world.hold(T_object_hand, joint_positions)
+        held = self.hold(T_object_hand, joint_positions)
         moved = held.moved_m, held.turned_rad
         if held.dropped:
             return planned._replace(reason="dropped", moved_m=moved[0], turned_rad=moved[1])

@@ -13,9 +13,10 @@ from tests.unit.settings import PARAMS
 from grasptypes.contact_maps.contact_map import ContactMap
 from grasptypes.hands import configuration
 from grasptypes.hands.surface import depth_in_hand
+from grasptypes.physics.engine import Contact
+from grasptypes.physics.holding import HoldResult
 from grasptypes.synthesis.energy import closeness
 from grasptypes.synthesis.grasps import ATTEMPT_SCHEMA, GRASP_SCHEMA
-from grasptypes.synthesis.holding import Contact, HoldResult
 from grasptypes.synthesis.trials import GraspTester, SynthesisTask, synthesize_sessions
 from grasptypes.tables import read_table, write_table
 
@@ -44,7 +45,7 @@ class World:
 
 
 def tried(world, T_object_hand=T[0], angles=ANGLES):
-    return GraspTester(scene_of(), world, VALIDITY).try_grasp(T_object_hand, angles)
+    return GraspTester(scene_of(), world.hold, VALIDITY).try_grasp(T_object_hand, angles)
 
 
 def test_a_held_grasp_is_valid() -> None:
@@ -138,7 +139,7 @@ def synthesized(world, sessions=3, kept=3.0):
         grip_shape=settings.grip_shape.changed(kept=kept),
     )
     task = SynthesisTask("ball", "use", None, contact_map(sessions), 0)
-    tester = GraspTester(scene_of(), world, VALIDITY)
+    tester = GraspTester(scene_of(), world.hold, VALIDITY)
     return synthesize_sessions(task, scene_of(), tester, settings)
 
 

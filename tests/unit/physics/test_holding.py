@@ -6,7 +6,8 @@ from synthesis_cases import ball_object, closed, palm_at
 from tests.unit.barrett import BARRETT, COUPLING
 from tests.unit.settings import PARAMS
 
-from grasptypes.synthesis.physics import physics
+from grasptypes.physics.engines import engine
+from grasptypes.physics.holding import hold
 
 SETTINGS = PARAMS.physics.test
 
@@ -32,8 +33,8 @@ def body(tmp_path):
 
 
 def test_an_enclosed_ball_is_held_with_forces_that_carry_it(body) -> None:
-    with physics(BARRETT, body, SETTINGS) as world:
-        held = world.hold(*GOOD)
+    with engine("pybullet", BARRETT, body, SETTINGS) as world:
+        held = hold(world, *GOOD)
     assert not held.dropped
     assert held.moved_m < 0.003
     assert len({contact.link for contact in held.contacts}) >= 3
@@ -45,8 +46,8 @@ def test_an_enclosed_ball_is_held_with_forces_that_carry_it(body) -> None:
 
 def test_fingertips_hold_a_ball_where_it_is_and_stay_coupled(body) -> None:
     T, angles = grasp(0.09, 0.0)
-    with physics(BARRETT, body, SETTINGS) as world:
-        held = world.hold(T, angles)
+    with engine("pybullet", BARRETT, body, SETTINGS) as world:
+        held = hold(world, T, angles)
     assert not held.dropped
     assert held.T_object_hand[2, 3] == pytest.approx(0.09, abs=0.005)
     lag = held.joint_positions[2:5] * COUPLING - held.joint_positions[5:]
@@ -55,8 +56,8 @@ def test_fingertips_hold_a_ball_where_it_is_and_stay_coupled(body) -> None:
 
 def test_a_base_that_is_stopped_lets_its_tip_go_on(body) -> None:
     T, angles = GOOD
-    with physics(BARRETT, body, SETTINGS) as world:
-        held = world.hold(T, angles)
+    with engine("pybullet", BARRETT, body, SETTINGS) as world:
+        held = hold(world, T, angles)
     bases = {contact.link for contact in held.contacts} & {3, 4, 5}
     lead = held.joint_positions[5:] - held.joint_positions[2:5] * COUPLING
     assert bases
@@ -69,8 +70,8 @@ def test_movement_is_that_of_the_object_wherever_its_frame_lies(body, tmp_path) 
     T, angles = GOOD
     moved = np.eye(4)
     moved[:3, 3] = shift
-    with physics(BARRETT, far_off, SETTINGS) as world:
-        held = world.hold(moved @ T, angles)
+    with engine("pybullet", BARRETT, far_off, SETTINGS) as world:
+        held = hold(world, moved @ T, angles)
     assert not held.dropped
     # A turn by 0.5 degrees moves the frame's origin by 9 mm.
     assert held.moved_m < 0.003
@@ -78,44 +79,44 @@ def test_movement_is_that_of_the_object_wherever_its_frame_lies(body, tmp_path) 
 
 def test_a_folded_finger_does_not_push_itself_off_the_palm(body) -> None:
     fist = BARRETT.couple([0.0, 2.2, 2.2, 0.0])
-    with physics(BARRETT, body, SETTINGS) as world:
-        held = world.hold(palm_at(5.0)[0], fist)
+    with engine("pybullet", BARRETT, body, SETTINGS) as world:
+        held = hold(world, palm_at(5.0)[0], fist)
     np.testing.assert_allclose(held.joint_positions[:2], 0.0, atol=0.002)
 
 
 def test_an_open_hand_drops_a_ball_from_above_and_carries_it_from_below(body) -> None:
     above, wide_open = GOOD[0], BARRETT.couple([0.0, 0.0, 0.0, 0.0])
     below = np.diag([1.0, -1.0, -1.0, 1.0]) @ above
-    with physics(BARRETT, body, SETTINGS) as world:
-        assert world.hold(above, wide_open).dropped
-        assert not world.hold(below, wide_open).dropped
+    with engine("pybullet", BARRETT, body, SETTINGS) as world:
+        assert hold(world, above, wide_open).dropped
+        assert not hold(world, below, wide_open).dropped
 
 
 def test_nothing_holds_far_away_or_without_friction(body) -> None:
     far = palm_at(0.3)[0]
-    with physics(BARRETT, body, SETTINGS) as world:
-        assert world.hold(far, GOOD[1]).dropped
-    with physics(BARRETT, body, SETTINGS.changed(friction=0.0)) as world:
+    with engine("pybullet", BARRETT, body, SETTINGS) as world:
+        assert hold(world, far, GOOD[1]).dropped
+    with engine("pybullet", BARRETT, body, SETTINGS.changed(friction=0.0)) as world:
         tips = grasp(0.105, 0.0)
-        assert world.hold(*tips).dropped
+        assert hold(world, *tips).dropped
 
 
 def test_result_does_not_depend_on_the_tests_before(body) -> None:
-    with physics(BARRETT, body, SETTINGS) as world:
-        alone = bytes_of(world.hold(*GOOD))
-    with physics(BARRETT, body, SETTINGS) as world:
-        world.hold(*OTHER)
-        after_another = bytes_of(world.hold(*GOOD))
-        again = bytes_of(world.hold(*GOOD))
+    with engine("pybullet", BARRETT, body, SETTINGS) as world:
+        alone = bytes_of(hold(world, *GOOD))
+    with engine("pybullet", BARRETT, body, SETTINGS) as world:
+        hold(world, *OTHER)
+        after_another = bytes_of(hold(world, *GOOD))
+        again = bytes_of(hold(world, *GOOD))
     assert alone == after_another == again
 
 
 def test_shaking_reports_the_worst_direction(body) -> None:
-    with physics(BARRETT, body, SETTINGS) as world:
-        still = world.hold(*GOOD)
+    with engine("pybullet", BARRETT, body, SETTINGS) as world:
+        still = hold(world, *GOOD)
         once = world.steps
-    with physics(BARRETT, body, SETTINGS.changed(shake=True)) as world:
-        shaken = world.hold(*GOOD)
+    with engine("pybullet", BARRETT, body, SETTINGS.changed(shake=True)) as world:
+        shaken = hold(world, *GOOD)
         assert world.steps == 6 * once
     assert shaken.moved_m >= still.moved_m
 
@@ -123,10 +124,10 @@ def test_shaking_reports_the_worst_direction(body) -> None:
 @pytest.mark.parametrize("changes", [{"hold_time_s": 0.15}, {"control_steps": 100}])
 def test_gravity_acts_however_short_the_test_or_long_an_interval_is(tmp_path, changes) -> None:
     settings = SETTINGS.changed(squeeze_time_s=0.0, **changes)
-    with physics(BARRETT, ball_object(tmp_path), settings) as world:
-        assert world.hold(palm_at(0.3)[0], GOOD[1]).moved_m > settings.drop_distance_m
+    with engine("pybullet", BARRETT, ball_object(tmp_path), settings) as world:
+        assert hold(world, palm_at(0.3)[0], GOOD[1]).moved_m > settings.drop_distance_m
 
 
 def test_a_heavy_ball_is_dropped(tmp_path) -> None:
-    with physics(BARRETT, ball_object(tmp_path, mass_kg=20.0), SETTINGS) as world:
-        assert world.hold(*OTHER).dropped
+    with engine("pybullet", BARRETT, ball_object(tmp_path, mass_kg=20.0), SETTINGS) as world:
+        assert hold(world, *OTHER).dropped

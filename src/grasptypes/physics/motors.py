@@ -1,7 +1,8 @@
-"""Input and output of the physics test, and the hand's motors; without a physics engine."""
+"""A hand's motors; without a physics engine."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -16,37 +17,19 @@ Array = NDArray[np.float64]
 DRIVEN_BACK_RAD, DRIVEN_BACK_M = 0.001, 0.0001
 
 
-class Contact(NamedTuple):
-    """A point where a link presses on the object, in the object frame."""
+class MotorCommand(NamedTuple):
+    """What the motors do until the next command; (J,) each, rad and N m, or m and N."""
 
-    link: int
-    """Index into `Hand.links`."""
-    point_m: Array
-    """(3,)."""
-    normal: Array
-    """(3,) unit vector from the link into the object."""
-    force_n: float
-    """Along the normal."""
-
-
-class HoldResult(NamedTuple):
-    """Result of a physics test.
-
-    With `shake`, all fields are of the test in the worst direction of gravity: the first in which
-    the object dropped, or the one in which it moved most.
-    """
-
-    dropped: bool
-    moved_m: float
-    """Motion of the object's centre of mass in the hand under gravity."""
-    turned_rad: float
-    """Rotation of the object in the hand under gravity."""
-    T_object_hand: Array
-    """(4, 4) at the end of the last test."""
-    joint_positions: Array
-    """(J,) at the end of the last test."""
-    contacts: list[Contact]
-    """At the end of the last test."""
+    speeds: Array
+    """Speeds to reach."""
+    torques: Array
+    """Largest torques for it."""
+    closing_torques: Array
+    """Torques that close the joints; 0 for those that stay where they are."""
+    passive_torques: Array
+    """Largest torques that withstand being driven back; 0 for joints that follow another one."""
+    reached: Array
+    """Positions from which joints withstand being driven back."""
 
 
 class Motors:
@@ -65,15 +48,15 @@ class Motors:
         """Number of stopped joints of each finger."""
         self._interval_s = settings.timestep_s * settings.control_steps
         self._reached = positions.copy()
-        self._levers = self._tip_levers(positions)
+        self._levers = tip_levers(hand, self.stages, positions)
 
     def stop(self, finger: int, count: int) -> None:
         """From now on, the first `count` joints of a finger stay in place."""
         self.stages[finger] = count
-        self._levers = self._tip_levers(self._reached)
+        self._levers = tip_levers(self.hand, self.stages, self._reached)
 
-    def drive(self, positions: Array) -> tuple[Array, Array]:
-        """Motor commands at joint positions (J,): speeds (J,) and torque limits (J,).
+    def drive(self, positions: Array) -> MotorCommand:
+        """The motors' command at joint positions (J,).
 
         Joints that follow another one of their finger have no torque of their own.
         """
@@ -96,30 +79,41 @@ class Motors:
         way = np.minimum(self._reached, stop) - positions
         closing = np.minimum(speeds, (stop - positions) / self._interval_s)
         withstands = ~moves | (way > self._driven_back) | (positions > stop)
-        force_n = np.where(withstands, motors.passive_force_n, motors.fingertip_force_n)
-        force_n[follows & moves] = 0.0
-        return np.where(withstands, way / self._interval_s, closing), force_n * self._levers
+        levers = np.where(follows & moves, 0.0, self._levers)
+        passive = motors.passive_force_n * levers
+        force = motors.fingertip_force_n * levers
+        return MotorCommand(
+            speeds=np.where(withstands, way / self._interval_s, closing),
+            torques=np.where(withstands, passive, force),
+            closing_torques=np.where(moves, force, 0.0),
+            passive_torques=passive,
+            reached=np.minimum(self._reached, stop),
+        )
 
-    def _tip_levers(self, positions: Array) -> Array:
-        """(J,) motion of the fingertips per joint motion: m/rad, 1 if prismatic.
 
-        The joint of a preshape may carry several fingers: that with the largest motion counts.
-        """
-        hand = self.hand
-        poses, tips = hand.link_poses(positions), hand.fingertips(positions)
-        ways = np.zeros((len(hand.fingers), len(hand.joints), 3))
-        for finger, stage, tip, way in zip(hand.fingers, self.stages, tips, ways, strict=True):
-            for link in hand.path(finger):
-                axis, origin = poses[link, :3, 2], poses[link, :3, 3]
-                slides = hand.joints[link - 1].prismatic
-                way[link - 1] = axis if slides else np.cross(axis, tip - origin)
-            if hand.direct or stage == len(finger.joints):
-                continue
-            driver, *followers = finger.joints[stage:]
-            for place, joint in enumerate(followers, start=stage + 1):
-                ratio = finger.rates[stage, place] / finger.rates[stage, stage]
-                way[driver] += ratio * way[joint]
-        return np.asarray(np.linalg.norm(ways, axis=2).max(axis=0))
+def tip_levers(hand: Hand, stages: Sequence[int], positions: Array) -> Array:
+    """(J,) motion of the fingertips per joint motion: m/rad, 1 if prismatic.
+
+    The joint of a preshape may carry several fingers: that with the largest motion counts.
+
+    Args:
+        stages: number of stopped joints of each finger.
+        positions: (J,).
+    """
+    poses, tips = hand.link_poses(positions), hand.fingertips(positions)
+    ways = np.zeros((len(hand.fingers), len(hand.joints), 3))
+    for finger, stage, tip, way in zip(hand.fingers, stages, tips, ways, strict=True):
+        for link in hand.path(finger):
+            axis, origin = poses[link, :3, 2], poses[link, :3, 3]
+            slides = hand.joints[link - 1].prismatic
+            way[link - 1] = axis if slides else np.cross(axis, tip - origin)
+        if hand.direct or stage == len(finger.joints):
+            continue
+        driver, *followers = finger.joints[stage:]
+        for place, joint in enumerate(followers, start=stage + 1):
+            ratio = finger.rates[stage, place] / finger.rates[stage, stage]
+            way[driver] += ratio * way[joint]
+    return np.asarray(np.linalg.norm(ways, axis=2).max(axis=0))
 
 
 def _stage(finger: Finger, ahead: NDArray[np.bool_]) -> int:
