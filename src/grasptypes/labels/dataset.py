@@ -23,6 +23,7 @@ from grasptypes.labels.grasp_type import (
     measure,
     thresholds_of,
 )
+from grasptypes.labels.recorded import joint_columns, state_cells
 from grasptypes.labels.samples import COUNTS, samples_from_counts
 from grasptypes.settings.grasp_types import LabellingRule
 
@@ -33,11 +34,6 @@ _MEASURES = {
     "sideways_share": "sideways_share",
     "span_m": "span_m",
 }
-
-
-def joint_columns(hand: Hand) -> list[str]:
-    """Columns of the hand's joint positions."""
-    return [f"{joint.name}_{'m' if joint.prismatic else 'rad'}" for joint in hand.joints]
 
 
 def dataset_schema(hand: Hand) -> pa.DataFrameSchema:
@@ -71,6 +67,11 @@ def dataset_schema(hand: Hand) -> pa.DataFrameSchema:
                 name: pa.Column(float, pa.Check.in_range(low - 1e-6, high + 1e-6))
                 for name, (low, high) in limits
             },
+            "stopped_joints": pa.Column(str, description="of each finger, as held"),
+            "touching_pose": pa.Column(str, description="3x4 of the hand that closes next"),
+            "touching_joints": pa.Column(str, description="all joints there, all digits"),
+            "pregrasp_pose": pa.Column(str, description="3x4 of the open hand before"),
+            "pregrasp_joints": pa.Column(str, description="all joints there"),
         },
         strict=True,
         ordered=True,
@@ -134,7 +135,8 @@ def dataset_columns(table: pd.DataFrame, hand: Hand) -> pd.DataFrame:
             **dict(zip(joint_columns(hand), positions.T, strict=True)),
         }
     )
-    return pd.concat([authors_columns(table, GRASP_TYPES), ours.round(9)], axis=1)
+    states = pd.DataFrame(state_cells(table))
+    return pd.concat([authors_columns(table, GRASP_TYPES), ours.round(9), states], axis=1)
 
 
 def image_name(object_name: str, session: int, task: str) -> str:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -39,19 +40,27 @@ class HoldResult(NamedTuple):
     """(J,) at the end of the last test."""
     contacts: list[Contact]
     """At the end of the last test."""
+    stages: tuple[int, ...]
+    """Number of stopped joints of each finger at the end of the last test."""
 
 
-def hold(engine: Engine, T_object_hand: Array, joint_positions: Array) -> HoldResult:
+def hold(
+    engine: Engine,
+    T_object_hand: Array,
+    joint_positions: Array,
+    stages: Sequence[int] | None = None,
+) -> HoldResult:
     """Squeeze and hold the object; returns the result for the worst direction of gravity.
 
     Args:
         T_object_hand: (4, 4) hand in the object frame.
         joint_positions: (J,) at which the fingers touch.
+        stages: number of stopped joints of each finger; default: what the positions show.
     """
     directions = DIRECTIONS if engine.settings.shake else DIRECTIONS[:1]
     worst: HoldResult | None = None
     for direction in directions:
-        held = hold_against(engine, T_object_hand, joint_positions, direction)
+        held = hold_against(engine, T_object_hand, joint_positions, direction, stages)
         if worst is None or (held.dropped, held.moved_m) > (worst.dropped, worst.moved_m):
             worst = held
         if worst.dropped:
@@ -61,12 +70,16 @@ def hold(engine: Engine, T_object_hand: Array, joint_positions: Array) -> HoldRe
 
 
 def hold_against(
-    engine: Engine, T_object_hand: Array, positions: Array, direction: Array
+    engine: Engine,
+    T_object_hand: Array,
+    positions: Array,
+    direction: Array,
+    stages: Sequence[int] | None = None,
 ) -> HoldResult:
     """Squeeze and hold the object against gravity in one direction (3,) of the object frame."""
     settings = engine.settings
     engine.load(T_object_hand, positions)
-    motors = Motors(engine.hand, positions, settings)
+    motors = Motors(engine.hand, positions, settings, stages)
     for finger, stage in enumerate(motors.stages):
         engine.couple(finger, stage)
     interval_s = settings.timestep_s * settings.control_steps
@@ -90,6 +103,7 @@ def hold_against(
         T_object_hand=inverse(after),
         joint_positions=engine.joint_positions(),
         contacts=contacts,
+        stages=tuple(motors.stages),
     )
 
 

@@ -40,11 +40,18 @@ class Motors:
     joint and those before it stay, and the others go on alone.
     """
 
-    def __init__(self, hand: Hand, positions: Array, settings: PhysicsSettings) -> None:
+    def __init__(
+        self,
+        hand: Hand,
+        positions: Array,
+        settings: PhysicsSettings,
+        stages: Sequence[int] | None = None,
+    ) -> None:
         self.hand = hand
         self._driven_back = np.where(hand.prismatic_joints, DRIVEN_BACK_M, DRIVEN_BACK_RAD)
         ahead = np.abs(hand.lag(positions)) >= self._driven_back
-        self.stages = [_stage(finger, ahead) for finger in hand.fingers]
+        shown = (_stage(finger, ahead) for finger in hand.fingers)
+        self.stages = list(shown if stages is None else stages)
         """Number of stopped joints of each finger."""
         self._interval_s = settings.timestep_s * settings.control_steps
         self._reached = positions.copy()

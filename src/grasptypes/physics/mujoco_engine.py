@@ -29,8 +29,8 @@ Array = NDArray[np.float64]
 
 OBJECT = "object"
 
-# As stiff as MuJoCo's constraints become: a time constant of two time steps, and no compliance. With the
-# defaults, made for heavier bodies, a fingertip of 41 g lags behind its finger by half a radian.
+# As stiff as MuJoCo's constraints become: a time constant of two time steps, and no compliance.
+# With the defaults, made for heavier bodies, a fingertip lags behind its finger by half a radian.
 STIFFEST_STEPS = 2.0
 STIFFEST_SOLIMP = [0.9999, 0.9999, 0.001, 0.5, 2.0]
 

@@ -70,6 +70,26 @@ def draw_candidates(
     return close_fingers(scene, T, preshape, closing)
 
 
+def pregrasp(
+    scene: GraspScene, T_object_hand: Array, joint_positions: Array
+) -> tuple[Array, Array]:
+    """The open hand in front of the object from which a grasp is reached along its approach.
+
+    Args:
+        T_object_hand: (4, 4) the hand at the object.
+        joint_positions: (J,) there.
+
+    Returns:
+        T_object_hand (4, 4) and joint positions (J,) of the open hand.
+    """
+    hand, approach = scene.hand, T_object_hand[:3, 2]
+    foremost = float((scene.surface_m @ approach).min())
+    back_m = float(T_object_hand[:3, 3] @ approach) - foremost + hand.grips.start_m
+    T = T_object_hand.copy()
+    T[:3, 3] -= max(back_m, 0.0) * approach
+    return T, hand.opened(hand.preshape_of(joint_positions))
+
+
 def frames(approach: Array, side: Array) -> Array:
     """Rotations (n, 3, 3) with z along the approach (n, 3) and y closest to side (n, 3)."""
     z = approach / np.linalg.norm(approach, axis=1, keepdims=True)

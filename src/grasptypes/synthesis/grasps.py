@@ -13,6 +13,8 @@ from grasptypes.synthesis.search import ALL_TERMS
 
 # Why a grasp is invalid, in the order of the checks; empty if it is valid.
 REASONS = ("joint_limit", "self_collision", "penetrates", "no_contact", "dropped")
+# A pose's three rows of four.
+POSE_NUMBERS = 12
 ENERGY_TERMS = tuple(f"energy_{term}" for term in ALL_TERMS)
 
 
@@ -22,6 +24,7 @@ def _longer(column: pd.Series, length: int) -> pd.Series:
     return (lengths > length) & (lengths == lengths.iloc[0] if len(lengths) else True)
 
 
+_POSE = pa.Check(lambda column: column.map(len) == POSE_NUMBERS)
 _TRIAL_COLUMNS = {
     "object": pa.Column(str),
     "task": pa.Column(str),
@@ -39,6 +42,13 @@ _TRIAL_COLUMNS = {
         pa.Check(lambda column: _longer(column, 0)),
         description="in the order of the hand's joints; prismatic ones m",
     ),
+    "stopped_joints": pa.Column(object, description="of each finger as held, from the palm"),
+    "touching_pose": pa.Column(
+        object, _POSE, description="3x4 of the hand as planned, row by row; it closes from there"
+    ),
+    "touching_joints": pa.Column(object, description="joint positions there"),
+    "pregrasp_pose": pa.Column(object, _POSE, description="3x4 of the open hand before"),
+    "pregrasp_joints": pa.Column(object, description="joint positions there"),
     "penetration_m": pa.Column(float, pa.Check.ge(0), description="hand and object in each other"),
     "moved_m": pa.Column(float, pa.Check.ge(0), description="object in the hand, under gravity"),
     "turned_rad": pa.Column(float, pa.Check.ge(0), description="object in the hand"),

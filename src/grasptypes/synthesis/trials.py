@@ -26,7 +26,7 @@ from grasptypes.physics.holding import HoldResult, hold
 from grasptypes.seeds import rng, seed
 from grasptypes.settings.physics import GraspTestSettings, ValiditySettings
 from grasptypes.settings.synthesis import SynthesisSettings
-from grasptypes.synthesis.candidates import Demonstration
+from grasptypes.synthesis.candidates import Demonstration, pregrasp
 from grasptypes.synthesis.energy import closeness
 from grasptypes.synthesis.grasps import ENERGY_TERMS
 from grasptypes.synthesis.hand_model import sample_hand
@@ -52,6 +52,12 @@ class GraspTrial(NamedTuple):
     moved_m: float
     turned_rad: float
     contacts: list[Contact]
+    stages: tuple[int, ...]
+    """Number of stopped joints of each finger, as held at the end; none if not held."""
+    T_object_touching: Array
+    """(4, 4) the hand as planned: its fingers touch, and squeeze next."""
+    touching_positions: Array
+    """(J,) likewise."""
     deviation: float = 0.0
     """Deviation of that hand from the shape of the person's grip, see `preshape_cost`."""
 
@@ -96,7 +102,7 @@ def synthesize_sessions(
         trials = list(_until_kept(ranked, tester, cost, settings.grip_shape.kept))
         best = _best(trials)
         rows = [
-            _row(scene.hand, key, ranked.terms[rank], trial, rank, tester.validity)
+            _row(scene, key, ranked.terms[rank], trial, rank, tester.validity)
             for rank, trial in enumerate(trials)
         ]
         attempts.extend({**row, "chosen": rank == best} for rank, row in enumerate(rows))
@@ -151,7 +157,9 @@ class GraspTester:
         """Check a grasp as planned; if it has no flaw, test it, and check it as held."""
         hand = self.scene.hand
         reason, depth = self._flaw(T_object_hand, joint_positions)
-        planned = GraspTrial(reason, T_object_hand, joint_positions, depth, 0.0, 0.0, [])
+        touching = T_object_hand, joint_positions
+        none = (0,) * len(hand.fingers)
+        planned = GraspTrial(reason, *touching, depth, 0.0, 0.0, [], none, *touching)
         if reason:
             return planned
         held = self.hold(T_object_hand, joint_positions)
@@ -169,7 +177,8 @@ class GraspTester:
             reason = "joint_limit"
         elif not reason and len(links) < self.validity.min_links:
             reason = "no_contact"
-        return GraspTrial(reason, held.T_object_hand, positions, depth, *moved, held.contacts)
+        state = held.T_object_hand, positions, depth, *moved, held.contacts, held.stages
+        return GraspTrial(reason, *state, *touching)
 
     def _flaw(self, T_object_hand: Array, positions: Array) -> tuple[str, float]:
         """Geometric flaw of a pose, and penetration depth of hand and object.
@@ -223,13 +232,15 @@ def _best(trials: Sequence[GraspTrial]) -> int:
 
 
 def _row(
-    hand: Hand,
+    scene: GraspScene,
     key: tuple[str, str, int, int],
     terms: Array,
     trial: GraspTrial,
     rank: int,
     validity: ValiditySettings,
 ) -> Mapping[str, Any]:
+    hand = scene.hand
+    before, opened = pregrasp(scene, trial.T_object_touching, trial.touching_positions)
     numbers = configuration.pack(rank, trial.T_object_hand, hand.dofs_of(trial.joint_positions))
     return {
         "object": key[0],
@@ -240,6 +251,11 @@ def _row(
         **dict(zip(ENERGY_TERMS, terms.tolist(), strict=True)),
         "hand_configuration": numbers.tolist(),
         "joint_angles_rad": trial.joint_positions.tolist(),
+        "stopped_joints": list(trial.stages),
+        "touching_pose": _pose_numbers(trial.T_object_touching),
+        "touching_joints": trial.touching_positions.tolist(),
+        "pregrasp_pose": _pose_numbers(before),
+        "pregrasp_joints": opened.tolist(),
         "penetration_m": trial.penetration_m,
         "moved_m": trial.moved_m,
         "turned_rad": trial.turned_rad,
@@ -249,6 +265,11 @@ def _row(
         "reason": trial.reason,
         "seed": seed("synthesis", *key),
     }
+
+
+def _pose_numbers(T: Array) -> list[float]:
+    numbers: list[float] = T[:3].ravel().tolist()
+    return numbers
 
 
 def _contacts(hand: Hand, trial: GraspTrial) -> Mapping[str, Any]:

@@ -25,7 +25,7 @@ OPEN = BARRETT.couple([0.0, 0.0, 0.0, 0.0])
 TIPS = palm_at(0.1)[0], closed(palm_at(0.1), 0.0)[0]
 
 
-# What a squeezed ball may move in a tenth of a second. Bullet's motors, which are given speeds, shake it.
+# What a squeezed ball may move in 0.1 s. Bullet's motors, which are given speeds, shake it.
 REST_M = {"BulletEngine": 2e-3, "MujocoEngine": 1e-4}
 
 

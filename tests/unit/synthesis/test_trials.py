@@ -41,7 +41,7 @@ class World:
         pose[2, 3] -= self.sink_m
         down = np.array([0.0, 0.0, -1.0])
         contacts = [Contact(link, -0.03 * down, down, 2.0) for link in self.links]
-        return HoldResult(dropped, 0.001, 0.01, pose, joint_positions, contacts)
+        return HoldResult(dropped, 0.001, 0.01, pose, joint_positions, contacts, (1, 0, 0))
 
 
 def tried(world, T_object_hand=T[0], angles=ANGLES):
