@@ -45,6 +45,7 @@ include: "workflow/rules/grasps.smk"
 include: "workflow/rules/replay.smk"
 include: "workflow/rules/galleries.smk"
 include: "workflow/rules/labels.smk"
+include: "workflow/rules/robustness.smk"
 include: "workflow/rules/renders.smk"
 include: "workflow/rules/learning.smk"
 include: "workflow/rules/tables.smk"
@@ -74,6 +75,7 @@ localrules:
     tabulate_types,
     tabulate_objects,
     tabulate_generalisation,
+    tabulate_robustness,
     summarise_scores,
     plot_folds,
     plot_losses,
@@ -127,7 +129,7 @@ rule all:
 
 # What `make report` shows: all results, and those of the other targets if they are complete.
 EXTRAS = [rules.evaluate_labels, rules.replay_grasps, rules.compare_shapes]
-EXTRAS += [rules.tabulate_generalisation, rules.compare_plans]
+EXTRAS += [rules.tabulate_generalisation, rules.compare_plans, rules.tabulate_robustness]
 
 
 rule shown:

@@ -15,7 +15,7 @@ from scipy.spatial.transform import Rotation
 from grasptypes.hands.hand import PALM, Hand
 from grasptypes.hands.urdf import write_urdf
 from grasptypes.objects.object_geometry import ObjectGeometry
-from grasptypes.physics.engine import Contact
+from grasptypes.physics.engine import NOMINAL, Contact, Surroundings
 from grasptypes.physics.motors import MotorCommand
 from grasptypes.poses import inverse
 from grasptypes.settings.physics import PhysicsSettings
@@ -42,12 +42,15 @@ class BulletEngine:
         self._urdf = urdf
         self._joints: list[int] = []
         self._gears: dict[int, list[int]] = {}
+        self._force: tuple[Array, Array] | None = None
         self._hand_id = self._object_id = -1
 
-    def load(self, T_object_hand: Array, joint_positions: Array) -> None:
+    def load(
+        self, T_object_hand: Array, joint_positions: Array, world: Surroundings = NOMINAL
+    ) -> None:
         """Create a world with the hand at its origin and the object."""
         client, settings = self.client, self.settings
-        self._gears = {}
+        self._gears, self._force = {}, None
         pybullet.resetSimulation(physicsClientId=client)
         pybullet.setPhysicsEngineParameter(
             fixedTimeStep=settings.timestep_s,
@@ -65,11 +68,10 @@ class BulletEngine:
         self._let_own_links_pass(hand)
         for joint, position in zip(self._joints, joint_positions, strict=True):
             pybullet.resetJointState(hand, joint, position, physicsClientId=client)
-        thing = self._load_object(inverse(T_object_hand))
+        thing = self._load_object(inverse(T_object_hand), world.mass_share)
+        friction = settings.friction if world.friction is None else world.friction
         for link in (-1, *self._joints):
-            pybullet.changeDynamics(
-                hand, link, lateralFriction=settings.friction, physicsClientId=client
-            )
+            pybullet.changeDynamics(hand, link, lateralFriction=friction, physicsClientId=client)
         self._hand_id, self._object_id = hand, thing
 
     def _number_joints(self, hand: int) -> None:
@@ -86,7 +88,7 @@ class BulletEngine:
                 hand, hand, one, other, enableCollision=0, physicsClientId=self.client
             )
 
-    def _load_object(self, T_hand_object: Array) -> int:
+    def _load_object(self, T_hand_object: Array, mass_share: float) -> int:
         body, client = self.geometry.properties, self.client
         moments, axes = np.linalg.eigh(np.array(body.inertia_kg_m2))
         axes = axes * np.sign(np.linalg.det(axes))
@@ -97,7 +99,7 @@ class BulletEngine:
         )
         position, orientation = _position_orientation(T_object_inertial)
         thing = pybullet.createMultiBody(
-            baseMass=body.mass_kg,
+            baseMass=body.mass_kg * mass_share,
             baseCollisionShapeIndex=shape,
             baseInertialFramePosition=position,
             baseInertialFrameOrientation=orientation,
@@ -106,7 +108,7 @@ class BulletEngine:
         pybullet.changeDynamics(
             thing,
             -1,
-            localInertiaDiagonal=moments.tolist(),
+            localInertiaDiagonal=(moments * mass_share).tolist(),
             lateralFriction=1.0,  # Bullet multiplies the friction of both bodies
             collisionMargin=0.0,
             physicsClientId=client,
@@ -120,6 +122,10 @@ class BulletEngine:
     def accelerate(self, gravity_m_s2: Array) -> None:
         """Set the acceleration (3,) of gravity, in the hand's frame."""
         pybullet.setGravity(*gravity_m_s2, physicsClientId=self.client)
+
+    def push(self, force_n: Array, point_m: Array) -> None:
+        """Let a force (3,), in the hand's frame, act at a point (3,) of the object's frame."""
+        self._force = force_n, point_m
 
     def drive(self, command: MotorCommand) -> None:
         """Let the joints reach the commanded speeds with their torques."""
@@ -135,6 +141,17 @@ class BulletEngine:
     def step(self, count: int) -> None:
         """Simulate `count` time steps."""
         for _ in range(count):
+            if self._force is not None:
+                force_n, point_m = self._force
+                T = self.T_hand_object()
+                pybullet.applyExternalForce(
+                    self._object_id,
+                    -1,
+                    force_n.tolist(),
+                    (T[:3, :3] @ point_m + T[:3, 3]).tolist(),
+                    pybullet.WORLD_FRAME,
+                    physicsClientId=self.client,
+                )
             pybullet.stepSimulation(physicsClientId=self.client)
         self.steps += count
 

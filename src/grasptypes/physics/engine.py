@@ -32,6 +32,18 @@ class Contact(NamedTuple):
     """Along the normal."""
 
 
+class Surroundings(NamedTuple):
+    """What differs from the nominal test."""
+
+    friction: float | None = None
+    """Coulomb coefficient; that of the settings if there is none."""
+    mass_share: float = 1.0
+    """Mass and inertia of the object relative to its properties."""
+
+
+NOMINAL = Surroundings()
+
+
 class Engine(Protocol):
     """A physics engine with one hand and one object."""
 
@@ -41,11 +53,16 @@ class Engine(Protocol):
     steps: int
     """Number of time steps so far, for benchmarks."""
 
-    def load(self, T_object_hand: Array, joint_positions: Array) -> None:
+    def load(
+        self, T_object_hand: Array, joint_positions: Array, world: Surroundings = NOMINAL
+    ) -> None:
         """Create the world: a hand at a pose (4, 4) at rest, (J,) joints, without gravity."""
 
     def accelerate(self, gravity_m_s2: Array) -> None:
         """Set the acceleration (3,) of gravity, in the hand's frame."""
+
+    def push(self, force_n: Array, point_m: Array) -> None:
+        """Let a force (3,), in the hand's frame, act at a point (3,) of the object's frame."""
 
     def couple(self, finger: int, stage: int) -> None:
         """Let a finger's joints that still move, after `stage` stopped ones, follow the first."""

@@ -4,11 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
+from typing import get_args
 
 from grasptypes.hands.hand import Hand
 from grasptypes.objects.object_geometry import ObjectGeometry
 from grasptypes.physics.engine import Engine
 from grasptypes.settings.physics import EngineName, PhysicsSettings
+
+ENGINES: tuple[EngineName, ...] = get_args(EngineName)
 
 
 @contextmanager

@@ -9,9 +9,10 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
-from grasptypes.physics.engine import Contact, Engine
+from grasptypes.physics.engine import NOMINAL, Contact, Engine, Surroundings
 from grasptypes.physics.motors import Motors
 from grasptypes.poses import inverse
+from grasptypes.settings.physics import PhysicsSettings
 
 Array = NDArray[np.float64]
 
@@ -77,34 +78,84 @@ def hold_against(
     stages: Sequence[int] | None = None,
 ) -> HoldResult:
     """Squeeze and hold the object against gravity in one direction (3,) of the object frame."""
-    settings = engine.settings
-    engine.load(T_object_hand, positions)
-    motors = Motors(engine.hand, positions, settings, stages)
-    for finger, stage in enumerate(motors.stages):
-        engine.couple(finger, stage)
-    interval_s = settings.timestep_s * settings.control_steps
-    run(engine, motors, round(settings.squeeze_time_s / interval_s))
-    before = engine.T_hand_object()
-    engine.accelerate(T_object_hand[:3, :3].T @ direction * settings.gravity_m_s2)
-    dropped, whole = False, max(1, round(settings.hold_time_s / interval_s))
-    for intervals in np.diff(np.linspace(0, whole, min(LOOKS, whole) + 1).astype(int)).tolist():
-        run(engine, motors, intervals)
-        after = engine.T_hand_object()
-        centre_m = np.array(engine.geometry.properties.centre_of_mass_m)
-        moved, turned = _difference(before, after, centre_m)
-        dropped = moved > settings.drop_distance_m or turned > settings.drop_rotation_rad
-        if dropped:
-            break
+    motors = squeeze(engine, T_object_hand, positions, stages)
+    down = T_object_hand[:3, :3].T @ direction * engine.settings.gravity_m_s2
+    borne = bear(engine, motors, down)
     contacts = engine.contacts()
     return HoldResult(
-        dropped=dropped or not contacts,
-        moved_m=moved,
-        turned_rad=turned,
-        T_object_hand=inverse(after),
+        dropped=borne.lost or not contacts,
+        moved_m=borne.moved_m,
+        turned_rad=borne.turned_rad,
+        T_object_hand=inverse(borne.T_hand_object),
         joint_positions=engine.joint_positions(),
         contacts=contacts,
         stages=tuple(motors.stages),
     )
+
+
+def squeeze(
+    engine: Engine,
+    T_object_hand: Array,
+    positions: Array,
+    stages: Sequence[int] | None = None,
+    world: Surroundings = NOMINAL,
+) -> Motors:
+    """Load hand and object and close the fingers without gravity; returns the closed motors."""
+    settings = engine.settings
+    engine.load(T_object_hand, positions, world)
+    motors = Motors(engine.hand, positions, settings, stages)
+    for finger, stage in enumerate(motors.stages):
+        engine.couple(finger, stage)
+    run(engine, motors, round(settings.squeeze_time_s / _interval_s(settings)))
+    return motors
+
+
+class Motion(NamedTuple):
+    """How an object moved in a hand under a load."""
+
+    lost: bool
+    """Whether it moved or turned too far; then the test ended early."""
+    moved_m: float
+    """Motion of its centre of mass."""
+    turned_rad: float
+    creep_m_s: float
+    """Speed of the centre of mass over the second half of the time; infinite if lost."""
+    T_hand_object: Array
+    """(4, 4) at the end."""
+
+
+def bear(
+    engine: Engine, motors: Motors, acceleration_m_s2: Array, time_s: float | None = None
+) -> Motion:
+    """Let an acceleration (3,), in the hand's frame, act on a squeezed object.
+
+    A force that `Engine.push` has set acts as well.
+
+    Args:
+        time_s: default: the holding time of the settings.
+    """
+    settings = engine.settings
+    before = half = engine.T_hand_object()
+    engine.accelerate(acceleration_m_s2)
+    time_s = settings.hold_time_s if time_s is None else time_s
+    whole = max(1, round(time_s / _interval_s(settings)))
+    looks = np.linspace(0, whole, min(LOOKS, whole) + 1).astype(int)
+    centre_m = np.array(engine.geometry.properties.centre_of_mass_m)
+    for look, intervals in enumerate(np.diff(looks).tolist(), start=1):
+        run(engine, motors, intervals)
+        after = engine.T_hand_object()
+        moved, turned = _difference(before, after, centre_m)
+        if lost := moved > settings.drop_distance_m or turned > settings.drop_rotation_rad:
+            break
+        if look == len(looks) // 2:
+            half = after
+    crept, _ = _difference(half, after, centre_m)
+    creep = np.inf if lost else crept / (time_s / 2.0)
+    return Motion(lost, moved, turned, creep, after)
+
+
+def _interval_s(settings: PhysicsSettings) -> float:
+    return settings.timestep_s * settings.control_steps
 
 
 def run(engine: Engine, motors: Motors, intervals: int) -> None:

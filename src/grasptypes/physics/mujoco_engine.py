@@ -20,7 +20,7 @@ from grasptypes.hands.hand import Hand
 from grasptypes.hands.urdf import write_urdf
 from grasptypes.objects.object_files import read_collision
 from grasptypes.objects.object_geometry import ObjectGeometry
-from grasptypes.physics.engine import Contact
+from grasptypes.physics.engine import NOMINAL, Contact, Surroundings
 from grasptypes.physics.motors import MotorCommand, tip_levers
 from grasptypes.poses import inverse
 from grasptypes.settings.physics import PhysicsSettings
@@ -43,6 +43,7 @@ class MujocoEngine:
         self.geometry = geometry
         self.settings = settings
         self.steps = 0
+        self._force: tuple[Array, Array] | None = None
         self._model = _model(hand, geometry, settings)
         self._data = mujoco.MjData(self._model)
         model = self._model
@@ -52,10 +53,14 @@ class MujocoEngine:
         links = {model.body(name).id: link for link, name in enumerate(hand.link_names)}
         self._link_of_geom = [links.get(body, -1) for body in model.geom_bodyid.tolist()]
 
-    def load(self, T_object_hand: Array, joint_positions: Array) -> None:
+    def load(
+        self, T_object_hand: Array, joint_positions: Array, world: Surroundings = NOMINAL
+    ) -> None:
         """Reset the world: a hand at a pose (4, 4) at rest, (J,) joints, without gravity."""
         model, data = self._model, self._data
         mujoco.mj_resetData(model, data)
+        self._vary(world)
+        self._force = None
         model.opt.gravity[:] = 0.0
         data.qpos[self._qpos] = joint_positions
         T_hand_object = inverse(T_object_hand)
@@ -65,9 +70,25 @@ class MujocoEngine:
         mujoco.mju_mat2Quat(place[3:], T_hand_object[:3, :3].ravel())
         mujoco.mj_forward(model, data)
 
+    def _vary(self, world: Surroundings) -> None:
+        """Set the friction, and the object's mass, if it is not that of the last load."""
+        model, friction = self._model, world.friction
+        model.geom_friction[:, 0] = self.settings.friction if friction is None else friction
+        mass_kg = self.geometry.properties.mass_kg * world.mass_share
+        change = mass_kg / model.body_mass[self._body]
+        if change != 1.0:
+            model.body_mass[self._body] *= change
+            model.body_inertia[self._body] *= change
+            mujoco.mj_setConst(model, self._data)
+            mujoco.mj_resetData(model, self._data)
+
     def accelerate(self, gravity_m_s2: Array) -> None:
         """Set the acceleration (3,) of gravity, in the hand's frame."""
         self._model.opt.gravity[:] = gravity_m_s2
+
+    def push(self, force_n: Array, point_m: Array) -> None:
+        """Let a force (3,), in the hand's frame, act at a point (3,) of the object's frame."""
+        self._force = force_n, point_m
 
     def couple(self, finger: int, stage: int) -> None:
         """Let the joints of a finger that still move follow the first of them, by constraints."""
@@ -104,6 +125,11 @@ class MujocoEngine:
 
     def step(self, count: int) -> None:
         """Simulate `count` time steps."""
+        if self._force is not None:
+            force_n, point_m = self._force
+            centre_m = np.array(self.geometry.properties.centre_of_mass_m)
+            arm_m = self.T_hand_object()[:3, :3] @ (point_m - centre_m)
+            self._data.xfrc_applied[self._body] = [*force_n, *np.cross(arm_m, force_n)]
         mujoco.mj_step(self._model, self._data, nstep=count)
         self.steps += count
 

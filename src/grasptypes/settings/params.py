@@ -22,6 +22,7 @@ from grasptypes.settings.predictors import (
     PredictorSettings,
 )
 from grasptypes.settings.renders import ContactPictureSettings, GallerySettings, RenderSettings
+from grasptypes.settings.robustness import RobustnessSettings
 from grasptypes.settings.synthesis import SynthesisSettings
 from grasptypes.yaml_files import read_yaml
 
@@ -53,6 +54,7 @@ class Params(Settings):
     contact_evidence: ContactEvidenceSettings
     synthesis: SynthesisSettings
     physics: GraspTestSettings
+    robustness: RobustnessSettings
     gallery: GallerySettings
     grasp_types: GraspTypeSettings
     renders: RenderSettings
