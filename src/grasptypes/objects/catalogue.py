@@ -17,7 +17,10 @@ from grasptypes.objects import (
     vessels,
 )
 from grasptypes.objects.parts import Material, ObjectModel, Part, Size, Solids
+from grasptypes.settings.roles import PartRole
 from grasptypes.yaml_files import read_yaml
+
+CATALOGUE = Path(__file__).with_suffix(".yaml")
 
 OBJECTS: dict[str, Callable[[Size], Solids]] = {
     "apple": fruit.apple,
@@ -51,13 +54,15 @@ def build(name: str, **changes: float) -> ObjectModel:
         key: Material(tuple(look.pop("base_color")), **look) for key, look in looks.items()
     }
     shapes = OBJECTS[name](Size(**(entry["size"] | changes)))
-    parts = tuple(
-        Part(part, solid, materials[entry["parts"][part]], densities[entry["parts"][part]])
-        for part, solid in shapes.items()
-    )
-    return ObjectModel(parts, entry["density_kg_m3"], entry.get("shell_thickness_m"))
+    parts = []
+    for part, solid in shapes.items():
+        described = dict(entry["parts"][part])
+        material = described.pop("material")
+        role = PartRole.check(described, f"{CATALOGUE}: {name}.parts.{part}")
+        parts.append(Part(part, solid, materials[material], densities[material], role))
+    return ObjectModel(tuple(parts), entry["density_kg_m3"], entry.get("shell_thickness_m"))
 
 
 @cache
 def _catalogue() -> dict[str, Any]:
-    return read_yaml(Path(__file__).with_suffix(".yaml"))
+    return read_yaml(CATALOGUE)

@@ -5,6 +5,8 @@ from types import SimpleNamespace
 
 from manifold3d import Manifold
 
+from grasptypes.settings.roles import PartRole
+
 
 class Size(SimpleNamespace):
     """Dimensions of a catalogue object: the numbers, and rows of them, in `catalogue.yaml`."""
@@ -34,13 +36,15 @@ class Part:
     """A named solid (metres, object frame at scale 1) of one material.
 
     Parts may overlap: the object is their union, and each part owns its visible surface.
-    `density_kg_m3` is set if the part's material is heavier or lighter than the object's.
+    `density_kg_m3` is set if the part's material is heavier or lighter than the object's, `role` if
+    it is known what the part is for.
     """
 
     name: str
     solid: Manifold
     material: Material
     density_kg_m3: float | None = None
+    role: PartRole | None = None
 
 
 @dataclass(frozen=True)
