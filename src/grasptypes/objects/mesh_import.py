@@ -43,7 +43,13 @@ def import_model(own: OwnObject, limits: ImportLimits) -> ImportedModel:
         found, cavities = assembled(bodies, repairs)
     else:
         found = {BODY: _rebuild(path, tidied(concatenated(pieces), []), limits, repairs)}
-    parts = tuple(Part(name, solid, GREY) for name, solid in found.items())
+    for name in own.parts:
+        if name not in found:
+            message = f"has no part '{name}'; its parts: {', '.join(found)}"
+            raise InputError(path, "", message)
+    parts = tuple(
+        Part(name, solid, GREY, role=own.parts.get(name)) for name, solid in found.items()
+    )
     check_volume(path, sum(part.solid.volume() for part in parts), pieces, limits)
     if cavities is not None and own.shell_thickness_m is not None:
         message = (
