@@ -1,0 +1,161 @@
+"""Object models of kinds: dimensions and colours are drawn, expressions evaluated, solids built."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from manifold3d import Manifold
+from pydantic import BaseModel
+
+from grasptypes.errors import InputError
+from grasptypes.kinds import library, shapes
+from grasptypes.kinds.description import Kind, KindPart, Materials, Range
+from grasptypes.kinds.expressions import Expression
+from grasptypes.objects.parts import ImportedModel, Material, ObjectModel, Part
+from grasptypes.seeds import rng
+from grasptypes.settings.base import MisplacedError
+from grasptypes.settings.roles import PartRole
+
+
+@dataclass(frozen=True)
+class Draw:
+    """What makes one shape of a kind differ from the others.
+
+    Attributes:
+        shares: position of each dimension in its range, 0 to 1.
+        colours: position in each list of colours, 0 to 1, by the name of the list or part.
+    """
+
+    shares: Mapping[str, float]
+    colours: Mapping[str, float]
+
+    @classmethod
+    def extreme(cls, kind: Kind, share: float) -> Draw:
+        """All dimensions at the same position of their ranges; the first colours."""
+        return cls(dict.fromkeys(kind.sizes, share), {})
+
+
+def draw_shape(kind: Kind, name: str, number: int) -> Draw:
+    """The draw of a shape; each dimension and colour has a seed of its own."""
+    return Draw(
+        {size: float(rng("kind", name, number, size).random()) for size in kind.sizes},
+        {
+            key: float(rng("kind colour", name, number, key).random())
+            for key in (*kind.colours, *kind.parts)
+        },
+    )
+
+
+def dimensions(kind: Kind, draw: Draw) -> dict[str, float]:
+    """The values of all dimensions.
+
+    Raises:
+        MisplacedError: a derived dimension cannot be computed; names its key.
+    """
+    values = {name: at_share(size, draw.shares[name]) for name, size in kind.sizes.items()}
+    for name, number in kind.derived.items():
+        values[name] = _evaluated(number, values, f"derived.{name}")
+    return values
+
+
+def at_share(given: Range, share: float) -> float:
+    """The value at a share of a range."""
+    return given.low + (given.high - given.low) * share
+
+
+def build_shape(name: str, folder: Path = library.DATA) -> ImportedModel:
+    """The model of a shape by name, such as mallet_s01; the same one for the same name.
+
+    Raises:
+        InputError: there is no such kind, or it has a mistake.
+    """
+    kind_name, number = library.shape_of(name)
+    kind = library.read_kind(kind_name, folder)
+    return build_kind(kind_name, draw_shape(kind, kind_name, number), folder)
+
+
+def build_kind(name: str, draw: Draw, folder: Path = library.DATA) -> ImportedModel:
+    """The model of a kind for given dimensions. Larger shapes are heavier within the mass range.
+
+    Raises:
+        InputError: there is no such kind, or it has a mistake.
+    """
+    kind = library.read_kind(name, folder)
+    try:
+        model = _model(kind, draw, library.read_materials(folder))
+    except MisplacedError as error:
+        path = folder / f"{library.kind_names(folder)[name]}.yaml"
+        raise InputError(path, f"{name}.{error.key}".rstrip("."), str(error)) from error
+    share = float(np.mean(list(draw.shares.values()))) if draw.shares else 0.5
+    return ImportedModel(model, 1.0, at_share(kind.mass_kg, share))
+
+
+def _model(kind: Kind, draw: Draw, materials: Materials) -> ObjectModel:
+    values = dimensions(kind, draw)
+    made: dict[str, Manifold] = {}
+    for name, described in kind.shapes.items():
+        key = f"shapes.{name}"
+        made[name] = shapes.union(_evaluated(described, values, key), made, key)
+    parts = []
+    for name, given in kind.parts.items():
+        key = f"parts.{name}"
+        part = _evaluated(given, values, key)
+        solid = shapes.union(part.solids, made, f"{key}.solids")
+        if part.cut:
+            solid -= shapes.union(part.cut, made, f"{key}.cut")
+        if solid.is_empty():
+            raise MisplacedError(key, "is empty: check its dimensions and cut")
+        look, density = _look(name, part, kind, draw, materials)
+        role = PartRole.check({"role": given.role, "attributes": given.attributes})
+        parts.append(Part(name, solid, look, density, role))
+    main = materials.materials[next(iter(kind.parts.values())).material]
+    return ObjectModel(tuple(parts), main.density_kg_m3, kind.shell_thickness_m)
+
+
+def _look(
+    name: str, part: KindPart, kind: Kind, draw: Draw, materials: Materials
+) -> tuple[Material, float]:
+    """A part's material and density."""
+    if part.material not in materials.materials:
+        raise MisplacedError(
+            f"parts.{name}.material",
+            f"'{part.material}' is not in {library.MATERIALS}: {', '.join(materials.materials)}",
+        )
+    surface = materials.materials[part.material]
+    choices = part.colour or surface.colour
+    key, owner = f"parts.{name}.colour", name
+    if isinstance(choices, str) and choices in kind.colours:
+        key, owner, choices = f"colours.{choices}", choices, kind.colours[choices]
+    names = (choices,) if isinstance(choices, str) else choices
+    for colour in names:
+        if colour not in materials.colours:
+            raise MisplacedError(key, f"'{colour}' is not a colour: {', '.join(materials.colours)}")
+    chosen = names[min(int(draw.colours.get(owner, 0.0) * len(names)), len(names) - 1)]
+    rgba = (*materials.colours[chosen], surface.opacity)
+    return Material(rgba, surface.metallic, surface.roughness), surface.density_kg_m3  # type: ignore[arg-type]
+
+
+def _evaluated(node: Any, values: Mapping[str, float], key: str) -> Any:
+    """The same description with numbers instead of expressions.
+
+    Raises:
+        MisplacedError: names the key of an expression that has no value.
+    """
+    if isinstance(node, Expression):
+        try:
+            return node.value(values)
+        except ValueError as error:
+            raise MisplacedError(key, str(error)) from error
+    if isinstance(node, tuple):
+        return tuple(_evaluated(one, values, f"{key}.{at}") for at, one in enumerate(node))
+    if isinstance(node, dict):
+        return {name: _evaluated(one, values, f"{key}.{name}") for name, one in node.items()}
+    if isinstance(node, BaseModel):
+        fields = node.model_fields_set
+        new = {name: _evaluated(getattr(node, name), values, f"{key}.{name}") for name in fields}
+        return node.model_copy(update=new)
+    return node
