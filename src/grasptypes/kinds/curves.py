@@ -62,7 +62,7 @@ def curve(
 
 
 def _spline(at: Curve, closed: bool = False) -> Curve:
-    """Points on a cubic spline through (K, D) points; the first point of a closed one is the last."""
+    """Points on a spline through (K, D) points; the first point of a closed one is its last."""
     samples = SPLINE_SAMPLES * (len(at) - 1)
     if not closed:
         return sections.smooth_curve(at, samples + 1)
