@@ -100,7 +100,11 @@ def _make(name: str, solid: description.Solid, shapes: Shapes, key: str) -> Mani
     made: Manifold = makers[name](getattr(solid, name))  # type: ignore[operator]
     if name in ("swept", "lofted"):
         return made
-    return made.rotate((_PLANE_ONTO if name == "extruded" else _ONTO)[solid.axis])
+    if name != "extruded":
+        return made.rotate(_ONTO[solid.axis])
+    turned = made.rotate(_PLANE_ONTO[solid.axis])
+    # (x, z) is left-handed when seen along y.
+    return turned.mirror((0.0, 1.0, 0.0)) if solid.axis == "y" else turned
 
 
 def _above_zero(numbers: Sequence[float]) -> tuple[float, ...]:
