@@ -15,9 +15,16 @@ from grasptypes.objects import lofts, sections
 
 Curve = NDArray[np.float64]
 
-# Samples of a smooth curve between two of its points, and of a rounded corner.
-SPLINE_SAMPLES, CORNER_DEG, EVEN_SAMPLES = 8, 12.0, 64
+# Samples of a smooth curve between two of its points, and the turn between two of a rounded corner.
+SPLINE_SAMPLES, CORNER_DEG = 8, 12.0
+# A circle's samples are about this far apart, but never fewer or more than these.
+SPACING_M, FEWEST, MOST = 0.0015, 12, 64
 SMOOTH = "smooth"
+
+
+def round_samples(radius_m: float) -> int:
+    """Number of samples of a circle, a multiple of 4."""
+    return 4 * round(float(np.clip(2 * np.pi * radius_m / SPACING_M, FEWEST, MOST)) / 4)
 
 
 def curve(
@@ -97,10 +104,11 @@ def _corner(before: Curve, corner: Curve, after: Curve, radius_m: float) -> Curv
 def outline(section: Section) -> Curve:
     """Trace an evaluated figure counter-clockwise, (N, 2)."""
     if section.circle is not None:
-        traced = sections.circle(section.circle, EVEN_SAMPLES)
+        traced = sections.circle(section.circle, round_samples(section.circle))
     elif section.ellipse is not None:
         half_x, half_y, exponent = (*section.ellipse, 2.0)[:3]
-        traced = lofts.even_superellipse(half_x, half_y, exponent, EVEN_SAMPLES)
+        samples = round_samples(max(half_x, half_y))
+        traced = lofts.even_superellipse(half_x, half_y, exponent, samples)
     elif section.rectangle is not None:
         traced = _rectangle(*section.rectangle)
     elif section.polygon is not None:

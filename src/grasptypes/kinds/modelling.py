@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -15,6 +16,7 @@ from grasptypes.errors import InputError
 from grasptypes.kinds import library, shapes
 from grasptypes.kinds.description import Kind, KindPart, Materials, Range
 from grasptypes.kinds.expressions import Expression
+from grasptypes.objects import solids
 from grasptypes.objects.parts import ImportedModel, Material, ObjectModel, Part
 from grasptypes.seeds import rng
 from grasptypes.settings.base import MisplacedError
@@ -79,19 +81,40 @@ def build_shape(name: str, folder: Path = library.DATA) -> ImportedModel:
 
 
 def build_kind(name: str, draw: Draw, folder: Path = library.DATA) -> ImportedModel:
-    """The model of a kind for given dimensions. Larger shapes are heavier within the mass range.
+    """The model of a kind for given dimensions.
+
+    Its mass has the position in the range of masses that its volume has between those of the
+    smallest and the largest shape.
 
     Raises:
         InputError: there is no such kind, or it has a mistake.
     """
+    model = _checked_model(name, draw, folder)
+    low_m3, high_m3 = extreme_volumes(name, folder)
+    share = (_volume(model) - low_m3) / (high_m3 - low_m3) if high_m3 > low_m3 else 0.5
+    mass_kg = at_share(library.read_kind(name, folder).mass_kg, float(np.clip(share, 0, 1)))
+    return ImportedModel(model, 1.0, mass_kg)
+
+
+@cache
+def extreme_volumes(name: str, folder: Path = library.DATA) -> tuple[float, float]:
+    """Volumes (m3) of a kind's smallest and largest shape."""
     kind = library.read_kind(name, folder)
+    low, high = (_checked_model(name, Draw.extreme(kind, share), folder) for share in (0.0, 1.0))
+    return _volume(low), _volume(high)
+
+
+def _volume(model: ObjectModel) -> float:
+    return float(solids.union(*(part.solid for part in model.parts)).volume())
+
+
+def _checked_model(name: str, draw: Draw, folder: Path) -> ObjectModel:
+    """The model; raises InputError."""
     try:
-        model = _model(kind, draw, library.read_materials(folder))
+        return _model(library.read_kind(name, folder), draw, library.read_materials(folder))
     except MisplacedError as error:
         path = folder / f"{library.kind_names(folder)[name]}.yaml"
         raise InputError(path, f"{name}.{error.key}".rstrip("."), str(error)) from error
-    share = float(np.mean(list(draw.shares.values()))) if draw.shares else 0.5
-    return ImportedModel(model, 1.0, at_share(kind.mass_kg, share))
 
 
 def _model(kind: Kind, draw: Draw, materials: Materials) -> ObjectModel:

@@ -9,7 +9,7 @@ from manifold3d import CrossSection, FillRule, JoinType, Manifold, OpType
 from numpy.typing import NDArray
 
 from grasptypes.kinds import description
-from grasptypes.kinds.curves import curve, outline
+from grasptypes.kinds.curves import curve, outline, round_samples
 from grasptypes.objects import lofts, sections, solids
 from grasptypes.settings.base import MisplacedError
 
@@ -20,7 +20,7 @@ Shapes = Mapping[str, Manifold]
 # of its axes.
 _ONTO = {"x": (0.0, 90.0, 0.0), "y": (-90.0, 0.0, 0.0), "z": (0.0, 0.0, 0.0)}
 _PLANE_ONTO = {"x": (90.0, 0.0, 90.0), "y": (90.0, 0.0, 0.0), "z": (0.0, 0.0, 0.0)}
-SEGMENTS, WIRE_SAMPLES, COIL_STEPS = 48, 20, 24
+COIL_STEPS, SCALE_SAMPLES = 24, 17
 
 
 def union(described: Sequence[description.Solid], shapes: Shapes, key: str) -> Manifold:
@@ -55,8 +55,9 @@ def build(solid: description.Solid, shapes: Shapes, key: str) -> Manifold:
 
 def between(solid: Manifold, axis: str, low_m: float, high_m: float) -> Manifold:
     """What lies between two positions along an axis."""
-    normal = np.array([float(name == axis) for name in "xyz"])
-    return solid.trim_by_plane(tuple(normal), low_m).trim_by_plane(tuple(-normal), -high_m)
+    # Slices of one solid that meet vanish in their union, as `solids.slabs` explains.
+    above, _ = solid.split_by_plane(tuple(float(name == axis) for name in "xyz"), low_m)
+    return above.split_by_plane(tuple(float(name == axis) for name in "xyz"), high_m)[1]
 
 
 def _copies(made: Manifold, solid: description.Solid) -> Manifold:
@@ -88,7 +89,8 @@ def _make(name: str, solid: description.Solid, shapes: Shapes, key: str) -> Mani
     if name == "hull":
         return union(solid.hull or (), shapes, key).hull()
     if name == "ellipsoid":
-        return solids.ellipsoid(_above_zero(solid.ellipsoid or ()), SEGMENTS)
+        half_axes = _above_zero(solid.ellipsoid or ())
+        return solids.ellipsoid(half_axes, round_samples(max(half_axes)))
     if name == "box":
         assert solid.box is not None
         size = _above_zero(solid.box.size)
@@ -123,13 +125,15 @@ def _rise(between: Sequence[float]) -> tuple[float, float]:
 def _cylinder(given: description.Cylinder) -> Manifold:
     low, high = _rise(given.between)
     top = given.radius if given.top_radius is None else given.top_radius
-    made = Manifold.cylinder(high - low, given.radius, top, SEGMENTS)
+    made = Manifold.cylinder(high - low, given.radius, top, round_samples(max(given.radius, top)))
     return made.translate((0.0, 0.0, low))
 
 
 def _torus(given: description.Torus) -> Manifold:
-    tube = sections.circle(given.tube_radius, WIRE_SAMPLES) + [given.ring_radius, 0.0]
-    return CrossSection([tube], FillRule.NonZero).revolve(SEGMENTS, min(given.angle, 360.0))
+    tube = sections.circle(given.tube_radius, round_samples(given.tube_radius))
+    segments = round_samples(given.ring_radius)
+    ring = CrossSection([tube + [given.ring_radius, 0.0]], FillRule.NonZero)
+    return ring.revolve(segments, min(given.angle, 360.0))
 
 
 def _turned(given: description.Turned) -> Manifold:
@@ -189,7 +193,7 @@ def _swept(given: description.Swept) -> Manifold:
         rows = [(at, *sizes) for at, *sizes in given.scales]
         table = np.array([(row[0], row[1], row[-1]) for row in rows])
         extra = table[(table[:, 0] > 0) & (table[:, 0] < 1), 0]
-        extra = np.concatenate([extra, np.linspace(table[0, 0], table[-1, 0], 33)])
+        extra = np.concatenate([extra, np.linspace(table[0, 0], table[-1, 0], SCALE_SAMPLES)])
         finer = np.unique(np.concatenate([share, extra]))
         path = np.column_stack([np.interp(finer, share, path[:, axis]) for axis in range(3)])
         scales = sections.monotone_curve(
@@ -255,9 +259,10 @@ def _lofted(given: description.Lofted) -> Manifold:
         half.append(width)
         middle.append(column.get(f"mid_{axis}", np.zeros(len(values))))
     exponents = column.get("exponent", np.full(len(values), given.exponent))
+    samples = round_samples(float(np.max(half)))
     outlines = [
         (
-            lofts.even_superellipse(1.0, 1.0, power)
+            lofts.even_superellipse(1.0, 1.0, power, samples)
             if given.section is None
             else outline(given.section)
         )
