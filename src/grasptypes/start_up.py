@@ -7,6 +7,7 @@ from pathlib import Path
 
 from grasptypes.contact_maps.holds import read_hold_table
 from grasptypes.errors import InputError
+from grasptypes.kinds.names import check_names
 from grasptypes.labels.label_sources import check_published
 from grasptypes.objects.own_objects import check_every_hold, check_own_objects
 from grasptypes.objects.reference_meshes import reference_meshes
@@ -31,6 +32,7 @@ def check_start(params: Params, root: str | Path, environment: Mapping[str, str]
     check_cache_links(root)
     read_hold_table()
     check_own_objects(params.objects)
+    check_names(params.kinds.names)
     check_every_hold(params.objects, {name: read_tasks()[name] for name in params.tasks})
     check_published(environment)
     reference_meshes(environment)

@@ -104,8 +104,10 @@ def varied_objects(labels):
 
 
 def view_count(wildcards):
-    """How many images are taken of an object; variants have fewer of them."""
+    """How many images are taken of an object; variants and shapes of kinds have fewer of them."""
     variant = wildcards.object in VARIANTS
+    if wildcards.object not in OBJECTS:
+        return PARAMS.kinds.views
     return PARAMS.objects.variant_views if variant else PARAMS.renders.views
 
 

@@ -16,6 +16,7 @@ from grasptypes.errors import InputError
 from grasptypes.kinds import library, shapes
 from grasptypes.kinds.description import Kind, KindPart, Materials, Range
 from grasptypes.kinds.expressions import Expression
+from grasptypes.kinds.names import DATA, MATERIALS, kind_names, shape_of
 from grasptypes.objects import solids
 from grasptypes.objects.parts import ImportedModel, Material, ObjectModel, Part
 from grasptypes.seeds import rng
@@ -69,18 +70,18 @@ def at_share(given: Range, share: float) -> float:
     return given.low + (given.high - given.low) * share
 
 
-def build_shape(name: str, folder: Path = library.DATA) -> ImportedModel:
+def build_shape(name: str, folder: Path = DATA) -> ImportedModel:
     """The model of a shape by name, such as mallet_s01; the same one for the same name.
 
     Raises:
         InputError: there is no such kind, or it has a mistake.
     """
-    kind_name, number = library.shape_of(name)
+    kind_name, number = shape_of(name)
     kind = library.read_kind(kind_name, folder)
     return build_kind(kind_name, draw_shape(kind, kind_name, number), folder)
 
 
-def build_kind(name: str, draw: Draw, folder: Path = library.DATA) -> ImportedModel:
+def build_kind(name: str, draw: Draw, folder: Path = DATA) -> ImportedModel:
     """The model of a kind for given dimensions.
 
     Its mass has the position in the range of masses that its volume has between those of the
@@ -97,7 +98,7 @@ def build_kind(name: str, draw: Draw, folder: Path = library.DATA) -> ImportedMo
 
 
 @cache
-def extreme_volumes(name: str, folder: Path = library.DATA) -> tuple[float, float]:
+def extreme_volumes(name: str, folder: Path = DATA) -> tuple[float, float]:
     """Volumes (m3) of a kind's smallest and largest shape."""
     kind = library.read_kind(name, folder)
     low, high = (_checked_model(name, Draw.extreme(kind, share), folder) for share in (0.0, 1.0))
@@ -113,7 +114,7 @@ def _checked_model(name: str, draw: Draw, folder: Path) -> ObjectModel:
     try:
         return _model(library.read_kind(name, folder), draw, library.read_materials(folder))
     except MisplacedError as error:
-        path = folder / f"{library.kind_names(folder)[name]}.yaml"
+        path = folder / f"{kind_names(folder)[name]}.yaml"
         raise InputError(path, f"{name}.{error.key}".rstrip("."), str(error)) from error
 
 
@@ -146,7 +147,7 @@ def _look(
     if part.material not in materials.materials:
         raise MisplacedError(
             f"parts.{name}.material",
-            f"'{part.material}' is not in {library.MATERIALS}: {', '.join(materials.materials)}",
+            f"'{part.material}' is not in {MATERIALS}: {', '.join(materials.materials)}",
         )
     surface = materials.materials[part.material]
     choices = part.colour or surface.colour

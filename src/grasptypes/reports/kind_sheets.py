@@ -9,8 +9,8 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from grasptypes.kinds.library import DATA, shape_names
 from grasptypes.kinds.modelling import build_shape
+from grasptypes.kinds.names import DATA, shape_names
 from grasptypes.objects.preparation import scaled_parts, visual_glb
 from grasptypes.renders.contact_pictures import look_at
 from grasptypes.renders.renderer import Camera

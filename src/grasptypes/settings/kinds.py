@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from grasptypes.settings.base import Settings, setting
+from grasptypes.settings.base import Name, Settings, Unique, setting
 
 
 class KindSheetSettings(Settings):
@@ -18,5 +18,7 @@ class KindSheetSettings(Settings):
 class KindSettings(Settings):
     """Kinds of objects."""
 
+    names: Unique[Name] = setting("kinds of the target `kinds`; an empty list means all")
     shapes: int = setting("shapes of each kind", ge=1, le=99)
+    views: int = setting("images of each shape", ge=1, le=1000)
     sheet: KindSheetSettings

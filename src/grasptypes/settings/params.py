@@ -16,6 +16,7 @@ from grasptypes.settings.contact_maps import (
     HoldFitSettings,
 )
 from grasptypes.settings.grasp_types import GraspTypeSettings, PublishedSettings, ReplaySettings
+from grasptypes.settings.kinds import KindSettings
 from grasptypes.settings.objects import ObjectSettings, TaskSettings
 from grasptypes.settings.physics import GraspTestSettings
 from grasptypes.settings.predictors import (
@@ -53,6 +54,7 @@ class Params(Settings):
         "a hand that comes with the package, or a folder with a hand of your own", min_length=1
     )
     objects: ObjectSettings
+    kinds: KindSettings
     contact_maps: ContactMapSettings
     published: PublishedSettings
     replay: ReplaySettings
