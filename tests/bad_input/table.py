@@ -7,6 +7,7 @@ from pathlib import Path
 
 import command_cases
 import hand_cases
+import kind_cases
 import map_cases
 import mesh_cases
 import params_cases
@@ -25,6 +26,7 @@ MODULES = (
     picture_cases,
     command_cases,
     hand_cases,
+    kind_cases,
     plan_cases,
 )
 CASES: list[Case] = [case for module in MODULES for case in module.CASES]

@@ -1,5 +1,6 @@
 # Kinds of objects: the same rules for every shape of every kind. `snakemake -j2 kinds`
 # A separate target, since no other result needs it; its files have folders and a DVC stage of their own.
+import functools
 import hashlib
 
 from grasptypes.kinds.names import DATA as KINDS
@@ -7,7 +8,7 @@ from grasptypes.kinds.names import (
     MATERIALS,
     SHAPE_PATTERN,
     kind_names,
-    kind_text,
+    kind_texts,
     shape_names,
     shape_of,
 )
@@ -33,9 +34,13 @@ def every_shape(*paths):
     return files
 
 
+written_kinds = functools.cache(kind_texts)
+
+
 def kind_hash(*kinds):
     """Hashes of what kinds are made of."""
-    blocks = {kind: hashlib.sha256(kind_text(kind).encode()).hexdigest() for kind in kinds}
+    texts = written_kinds()
+    blocks = {kind: hashlib.sha256(texts[kind].encode()).hexdigest() for kind in kinds}
     return blocks | hashes(str(KINDS / MATERIALS))
 
 

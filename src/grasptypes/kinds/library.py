@@ -22,7 +22,7 @@ def read_kind(name: str, folder: Path = DATA) -> Kind:
     if name not in groups:
         raise InputError(folder, name, f"there is no such kind; there are: {', '.join(groups)}")
     path = folder / f"{groups[name]}.yaml"
-    return check_kind(name, _content(path)[name], path)
+    return check_kind(name, _content(path, path.resolve())[name], path)
 
 
 def check_kind(name: str, content: object, path: Path) -> Kind:
@@ -36,7 +36,8 @@ def check_kind(name: str, content: object, path: Path) -> Kind:
 
 
 @cache
-def _content(path: Path) -> dict[str, object]:
+def _content(path: Path, _: Path) -> dict[str, object]:
+    """The content of a file, read once wherever the process is."""
     return read_yaml(path)
 
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable
-from functools import cache
 from pathlib import Path
 
 from grasptypes.errors import InputError
@@ -45,20 +44,22 @@ def kind_names(folder: Path = DATA) -> dict[str, str]:
     """
     groups: dict[str, str] = {}
     for path in kind_files(folder):
-        for name in _KEY.findall(_text(path)):
+        for name in _KEY.findall(path.read_text(encoding="utf-8")):
             if groups.get(name, path.stem) != path.stem:
                 raise InputError(path, name, f"is also in {groups[name]}.yaml")
             groups[name] = path.stem
     return groups
 
 
-def kind_text(name: str, folder: Path = DATA) -> str:
-    """The block of a kind as written, comments below its key included."""
-    text = _text(folder / f"{kind_names(folder)[name]}.yaml")
-    begin = re.search(rf"^{name}:", text, re.MULTILINE)
-    assert begin is not None
-    end = _KEY.search(text, begin.end())
-    return text[begin.start() : end.start() if end else None]
+def kind_texts(folder: Path = DATA) -> dict[str, str]:
+    """The block of each kind as written, by name."""
+    texts: dict[str, str] = {}
+    for path in kind_files(folder):
+        text = path.read_text(encoding="utf-8")
+        keys = list(_KEY.finditer(text))
+        ends = [key.start() for key in keys[1:]] + [len(text)]
+        texts |= {key[1]: text[key.start() : end] for key, end in zip(keys, ends, strict=True)}
+    return texts
 
 
 def check_names(names: Iterable[str], folder: Path = DATA) -> None:
@@ -75,8 +76,3 @@ def check_names(names: Iterable[str], folder: Path = DATA) -> None:
                 "kinds.names",
                 f"'{name}' is not a kind; there are: {', '.join(known)}",
             )
-
-
-@cache
-def _text(path: Path) -> str:
-    return path.read_text(encoding="utf-8")

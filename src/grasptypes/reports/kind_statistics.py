@@ -12,6 +12,7 @@ import pandera.pandas as pa
 from scipy.spatial import cKDTree
 
 from grasptypes.kinds.names import shape_of
+from grasptypes.labels.published import GRASP_TYPES
 from grasptypes.labels.samples import TYPES
 from grasptypes.objects.object_geometry import ObjectGeometry, read_object
 from grasptypes.synthesis.grasps import GRASP_SCHEMA, REASONS
@@ -118,7 +119,7 @@ def kind_tables(
             "task": dataset.Intent,
             "session": dataset.Session,
             "reason": dataset.reason,
-            "type": dataset["shape"],
+            "type": dataset["shape"].map(dict(zip(GRASP_TYPES, TYPES, strict=False))),
         }
     )
     table["kind"] = [shape_of(name)[0] for name in table.object]
