@@ -24,6 +24,12 @@ def kinds_of(group=None):
     ]
 
 
+def real_objects(environment):
+    """The folders of real objects; those that are missing make the rule fail with their variable."""
+    names = {"ycb": "GRASPTYPES_YCB", "furniture": "GRASPTYPES_FURNITURE"}
+    return {name: environment.get(variable, variable) for name, variable in names.items()}
+
+
 def every_shape(*paths):
     """An input function: the files of all shapes and tasks; nothing is read before it is needed."""
 
@@ -141,6 +147,21 @@ rule plot_kinds:
         "Drawing the contact sheet of {wildcards.group}"
     script:
         "../scripts/plot_kinds.py"
+
+
+# Few users have these data, so this is not part of any other target. GRASPTYPES_YCB names a checkout of
+# elpis-lab/YCB_Dataset, GRASPTYPES_FURNITURE a folder of Sweet Home 3D's libraries.
+rule compare_kind_sizes:
+    output:
+        table="reports/kind_sizes.csv",
+    params:
+        folders=lambda wildcards: real_objects(os.environ),
+        blocks=lambda wildcards: kind_hash(*kind_names()),
+        code=script_hash("compare_kind_sizes"),
+    message:
+        "Comparing kinds with real objects"
+    script:
+        "../scripts/compare_kind_sizes.py"
 
 
 def kind_sheets(wildcards):

@@ -286,6 +286,7 @@ class Kind(Settings):
 
     imagenet: Unique[str] = setting("classes of ImageNet (ILSVRC 2012) that it corresponds to")
     ycb: Unique[str] = setting("YCB objects of this kind", default=())
+    furniture: Unique[str] = setting("items of Sweet Home 3D of this kind", default=())
     taskgrasp: Unique[str] = setting("TaskGrasp objects of this kind", default=())
     family: Name = setting("kinds of one family are held out together")
     mass_kg: Annotated[Range, AfterValidator(_positive), FromList]

@@ -12,7 +12,7 @@ import pandera.pandas as pa
 from scipy.spatial import cKDTree
 
 from grasptypes.kinds.names import shape_of
-from grasptypes.labels.published import GRASP_TYPES
+from grasptypes.labels.grasp_type import GRASP_TYPES
 from grasptypes.labels.samples import TYPES
 from grasptypes.objects.object_geometry import ObjectGeometry, read_object
 from grasptypes.synthesis.grasps import GRASP_SCHEMA, REASONS
