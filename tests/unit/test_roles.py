@@ -3,11 +3,11 @@
 import pytest
 
 from grasptypes.errors import InputError
-from grasptypes.objects.catalogue import OBJECTS, build
+from grasptypes.kinds.catalogue import build, object_names
 from grasptypes.settings.roles import PartRole, RoleVocabulary, read_roles
 
 
-@pytest.mark.parametrize("name", OBJECTS)
+@pytest.mark.parametrize("name", object_names())
 def test_every_part_of_the_catalogue_has_a_role(name):
     assert all(part.role is not None for part in build(name).parts)
 

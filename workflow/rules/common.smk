@@ -19,7 +19,7 @@ from grasptypes.start_up import check_start
 from grasptypes.content_hash import CodeHash, FileHash
 
 PUBLISHED_COUNTS = "assets/published_labels.csv"
-CATALOGUE = f"{workflow.basedir}/src/grasptypes/objects/catalogue.yaml"
+CATALOGUE = f"{workflow.basedir}/src/grasptypes/kinds/catalogue.yaml"
 # How people hold parts by role, size and task.
 KNOWLEDGE = [str(path) for path in (ROLES, TASKS_FILE, HOLDS)]
 

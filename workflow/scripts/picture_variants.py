@@ -12,7 +12,7 @@ from grasptypes.files import write_npz
 from grasptypes.jobs import job
 from grasptypes.objects.preparation import scaled_parts, visual_glb
 from grasptypes.objects.variants import variant_names
-from grasptypes.objects.variation import build_variant
+from grasptypes.kinds.variation import build_variant
 from grasptypes.predictors.backbone import load_backbone
 from grasptypes.predictors.features import encodings, extract
 from grasptypes.predictors.weights import BackboneRecord

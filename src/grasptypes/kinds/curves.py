@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 
-from grasptypes.kinds.description import Section
-from grasptypes.objects import lofts, sections
+from grasptypes.kinds import lofts, sections
+from grasptypes.kinds.description import Lobes, Section
 
 Curve = NDArray[np.float64]
 
@@ -104,7 +104,7 @@ def _corner(before: Curve, corner: Curve, after: Curve, radius_m: float) -> Curv
 def outline(section: Section) -> Curve:
     """Trace an evaluated figure counter-clockwise, (N, 2)."""
     if section.circle is not None:
-        traced = sections.circle(section.circle, round_samples(section.circle))
+        traced = _circle(section)
     elif section.ellipse is not None:
         half_x, half_y, exponent = (*section.ellipse, 2.0)[:3]
         samples = round_samples(max(half_x, half_y))
@@ -122,6 +122,20 @@ def outline(section: Section) -> Curve:
     angle = np.radians(section.turn)
     turn = np.array([[np.cos(angle), np.sin(angle)], [-np.sin(angle), np.cos(angle)]])
     return np.asarray(traced @ turn + np.asarray(section.at))
+
+
+def _circle(section: Section) -> Curve:
+    radius_m, lobes = float(section.circle or 0.0), section.lobes
+    if lobes is None:
+        return sections.circle(radius_m, round_samples(radius_m))
+    circle = sections.circle(radius_m, 12 * lobes.count)
+    return circle * furrow_factors(circle, lobes)[:, None]
+
+
+def furrow_factors(points: Curve, lobes: Lobes) -> Curve:
+    """Factors (N,) on the distance of points (N, 2) from the axis, 1 between furrows."""
+    angle = np.arctan2(points[:, 1], points[:, 0])
+    return np.asarray(1 - lobes.depth * (0.5 - 0.5 * np.cos(lobes.count * angle)))
 
 
 def _rectangle(width_m: float, height_m: float, radius_m: float = 0.0) -> Curve:

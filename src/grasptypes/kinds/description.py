@@ -48,6 +48,14 @@ class Polygon(Settings):
     inner: Number | None = setting("distance of the corners between them, for a star", default=None)
 
 
+class Lobes(Settings):
+    """Furrows around a round body."""
+
+    count: int = setting("number of furrows around the axis", ge=2, le=90)
+    depth: Number = setting("share of the radius that they are deep")
+    fade: bool = setting("whether they fade towards the upper end", default=False)
+
+
 class Section(Settings):
     """A plane figure, centred on the origin of its plane."""
 
@@ -63,6 +71,7 @@ class Section(Settings):
         "corners, each with an optional radius or the word smooth", default=None
     )
     smooth: bool = setting("whether the outline is a curve through all its points", default=False)
+    lobes: Lobes | None = setting("furrows of a circle", default=None)
     at: Interval = setting("position of the figure's origin", default=(0.0, 0.0))
     turn: Number = setting("angle about the figure's origin", default=0.0)
 
@@ -93,13 +102,6 @@ class Torus(Settings):
     ring_radius: Number = setting("from the axis to the middle of the tube")
     tube_radius: Number = setting("of the tube")
     angle: Number = setting("how much of the ring there is", default=360.0)
-
-
-class Lobes(Settings):
-    """Furrows along a turned body."""
-
-    count: int = setting("number of furrows around the axis", ge=2, le=90)
-    depth: Number = setting("share of the radius that they are deep")
 
 
 class Turned(Settings):
@@ -162,6 +164,11 @@ class Lofted(Settings):
         "figure within -1 to 1 instead of a superellipse", default=None
     )
     exponent: Number = setting("of the superellipse, if it is not a column", default=2.0)
+    crown: Interval | None = setting(
+        "how much lower the top is at the sides than in the middle, and the bottom higher; at most "
+        "a fifth of the height",
+        default=None,
+    )
     count: int = setting("number of sections", default=40, ge=2, le=200)
 
     @model_validator(mode="after")
@@ -179,6 +186,14 @@ class Lofted(Settings):
                 said = f"has {len(row)} values for {len(self.columns)} columns"
                 raise MisplacedError(f"rows.{number}", said)
         return self
+
+
+class Duct(Settings):
+    """Ellipses between two curves in the plane y = 0, such as a spout."""
+
+    rows: Annotated[
+        Many[Annotated[Numbers, Field(min_length=5, max_length=5)]], Field(min_length=2)
+    ] = setting("x, z of the one curve, x, z of the other, half width along y; a smooth curve")
 
 
 class Row(Settings):
@@ -199,7 +214,8 @@ class Ring(Settings):
 class Solid(Settings):
     """One solid: its shape, what is cut from it, and where it is.
 
-    The order is: shape, `axis`, `cut`, `keep`, `turn`, `at`, `row`, `ring`, `mirrored`.
+    The order is: shape, `axis`, `cut`, `within`, `keep`, `scale`, `turn`, `at`, `row`, `ring`,
+    `mirrored`.
     """
 
     box: Box | None = None
@@ -211,12 +227,15 @@ class Solid(Settings):
     swept: Swept | None = None
     lofted: Lofted | None = None
     coil: Coil | None = None
+    duct: Duct | None = None
     hull: Many[Solid] | None = setting("convex hull of solids", default=None)
     group: Many[Solid] | None = setting("solids that are placed together", default=None)
     shape: str | None = setting("name of one of the kind's shapes", default=None)
     axis: Axis = setting("of a cylinder, torus, coil, turned or extruded solid", default="z")
     cut: Many[Solid] = setting("solids that are taken away", default=())
+    within: Many[Solid] = setting("solids outside which nothing is kept", default=())
     keep: dict[Axis, Interval] = setting("range along an axis that is kept", default={})
+    scale: Vector = setting("factors along x, y and z", default=(1.0, 1.0, 1.0))
     turn: Vector = setting("angles about x, then y, then z", default=(0.0, 0.0, 0.0))
     at: Vector = setting("position of the solid's origin", default=(0.0, 0.0, 0.0))
     row: Row | None = None
@@ -231,7 +250,7 @@ class Solid(Settings):
 
 SHAPES = (
     "box", "ellipsoid", "cylinder", "torus", "turned", "extruded", "swept", "lofted", "coil",
-    "hull", "group", "shape",
+    "duct", "hull", "group", "shape",
 )  # fmt: skip
 Solids = Annotated[Many[Solid], Field(min_length=1)]
 
@@ -281,7 +300,20 @@ def _positive(given: Range) -> Range:
     return given
 
 
-class Kind(Settings):
+class Blueprint(Settings):
+    """The parts of an object."""
+
+    shell_thickness_m: float | None = setting(
+        "wall thickness if the object is hollow and its solids are filled", default=None, gt=0
+    )
+    derived: dict[Name, Number] = setting("dimensions that follow from others", default={})
+    shapes: dict[Name, Solids] = setting("solids that parts refer to", default={})
+    parts: dict[Name, KindPart] = setting(
+        "parts; the first of two that overlap owns what they share", min_length=1
+    )
+
+
+class Kind(Blueprint):
     """A kind of object that people pick up with one hand."""
 
     imagenet: Unique[str] = setting("classes of ImageNet (ILSVRC 2012) that it corresponds to")
@@ -290,16 +322,26 @@ class Kind(Settings):
     taskgrasp: Unique[str] = setting("TaskGrasp objects of this kind", default=())
     family: Name = setting("kinds of one family are held out together")
     mass_kg: Annotated[Range, AfterValidator(_positive), FromList]
-    shell_thickness_m: float | None = setting(
-        "wall thickness if the object is hollow and its solids are filled", default=None, gt=0
-    )
     sizes: dict[Name, Annotated[Range, FromList]] = setting("dimensions that differ between shapes")
-    derived: dict[Name, Number] = setting("dimensions that follow from others", default={})
     colours: dict[Name, Unique[str]] = setting("colours that several parts share", default={})
-    shapes: dict[Name, Solids] = setting("solids that parts refer to", default={})
-    parts: dict[Name, KindPart] = setting(
-        "parts; the first of two that overlap owns what they share", min_length=1
+
+
+class Look(Settings):
+    """A material of a measured object, in glTF's metallic-roughness model."""
+
+    base_color: Annotated[Many[Share], Field(min_length=4, max_length=4)] = setting(
+        "sRGB and opacity"
     )
+    metallic: Share = setting("0 for plastic, wood and glass, 1 for bare metal", default=0.0)
+    roughness: Share = setting("0 mirror-like, 1 matt", default=0.6)
+    density_kg_m3: float | None = setting("density, if it is not the object's", default=None, gt=0)
+
+
+class MeasuredObject(Blueprint):
+    """One object in the size and frame in which it was measured."""
+
+    density_kg_m3: float = setting("of the walls (with a shell thickness) or of the solid", gt=0)
+    materials: dict[Name, Look] = setting("materials by name")
 
 
 class Surface(Settings):

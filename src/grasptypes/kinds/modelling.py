@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
@@ -14,7 +14,7 @@ from pydantic import BaseModel
 
 from grasptypes.errors import InputError
 from grasptypes.kinds import library, shapes
-from grasptypes.kinds.description import Kind, KindPart, Materials, Range
+from grasptypes.kinds.description import Blueprint, Kind, KindPart, Materials, Range
 from grasptypes.kinds.expressions import Expression
 from grasptypes.kinds.names import DATA, MATERIALS, kind_names, shape_of
 from grasptypes.objects import solids
@@ -59,8 +59,14 @@ def dimensions(kind: Kind, draw: Draw) -> dict[str, float]:
     Raises:
         MisplacedError: a derived dimension cannot be computed; names its key.
     """
-    values = {name: at_share(size, draw.shares[name]) for name, size in kind.sizes.items()}
-    for name, number in kind.derived.items():
+    drawn = {name: at_share(size, draw.shares[name]) for name, size in kind.sizes.items()}
+    return _all_dimensions(kind, drawn)
+
+
+def _all_dimensions(blueprint: Blueprint, drawn: Mapping[str, float]) -> dict[str, float]:
+    """Dimensions that were drawn, and those that follow from them."""
+    values = dict(drawn)
+    for name, number in blueprint.derived.items():
         values[name] = _evaluated(number, values, f"derived.{name}")
     return values
 
@@ -119,13 +125,33 @@ def _checked_model(name: str, draw: Draw, folder: Path) -> ObjectModel:
 
 
 def _model(kind: Kind, draw: Draw, materials: Materials) -> ObjectModel:
-    values = dimensions(kind, draw)
+    drawn = {name: at_share(size, draw.shares[name]) for name, size in kind.sizes.items()}
+    parts = build_parts(kind, drawn, lambda name, part: _look(name, part, kind, draw, materials))
+    main = materials.materials[next(iter(kind.parts.values())).material]
+    return ObjectModel(parts, main.density_kg_m3, kind.shell_thickness_m)
+
+
+def build_parts(
+    blueprint: Blueprint,
+    drawn: Mapping[str, float],
+    look: Callable[[str, KindPart], tuple[Material, float | None]],
+) -> tuple[Part, ...]:
+    """The parts of an object.
+
+    Args:
+        drawn: dimensions that the blueprint's expressions use.
+        look: material and density of a part by name.
+
+    Raises:
+        MisplacedError: a mistake in the blueprint; names its key.
+    """
+    values = _all_dimensions(blueprint, drawn)
     made: dict[str, Manifold] = {}
-    for name, described in kind.shapes.items():
+    for name, described in blueprint.shapes.items():
         key = f"shapes.{name}"
         made[name] = shapes.union(_evaluated(described, values, key), made, key)
     parts = []
-    for name, given in kind.parts.items():
+    for name, given in blueprint.parts.items():
         key = f"parts.{name}"
         part = _evaluated(given, values, key)
         solid = shapes.union(part.solids, made, f"{key}.solids")
@@ -133,11 +159,9 @@ def _model(kind: Kind, draw: Draw, materials: Materials) -> ObjectModel:
             solid -= shapes.union(part.cut, made, f"{key}.cut")
         if solid.is_empty():
             raise MisplacedError(key, "is empty: check its dimensions and cut")
-        look, density = _look(name, part, kind, draw, materials)
         role = PartRole.check({"role": given.role, "attributes": given.attributes})
-        parts.append(Part(name, solid, look, density, role))
-    main = materials.materials[next(iter(kind.parts.values())).material]
-    return ObjectModel(tuple(parts), main.density_kg_m3, kind.shell_thickness_m)
+        parts.append(Part(name, solid, *look(name, given), role))
+    return tuple(parts)
 
 
 def _look(

@@ -8,9 +8,9 @@ import numpy as np
 from manifold3d import CrossSection, FillRule, JoinType, Manifold, OpType
 from numpy.typing import NDArray
 
-from grasptypes.kinds import description
-from grasptypes.kinds.curves import curve, outline, round_samples
-from grasptypes.objects import lofts, sections, solids
+from grasptypes.kinds import description, lofts, sections
+from grasptypes.kinds.curves import curve, furrow_factors, outline, round_samples
+from grasptypes.objects import solids
 from grasptypes.settings.base import MisplacedError
 
 Array = NDArray[np.float64]
@@ -44,9 +44,11 @@ def build(solid: description.Solid, shapes: Shapes, key: str) -> Manifold:
         raise MisplacedError(f"{key}.{name}", str(error)) from error
     if solid.cut:
         made -= union(solid.cut, shapes, f"{key}.cut")
+    for number, one in enumerate(solid.within):
+        made ^= build(one, shapes, f"{key}.within.{number}")
     for axis, (low, high) in solid.keep.items():
         made = between(made, axis, low, high)
-    made = made.rotate(tuple(solid.turn)).translate(tuple(solid.at))
+    made = made.scale(tuple(solid.scale)).rotate(tuple(solid.turn)).translate(tuple(solid.at))
     made = _copies(made, solid)
     if made.is_empty():
         raise MisplacedError(key, "is empty: check its dimensions, cut and keep")
@@ -97,10 +99,10 @@ def _make(name: str, solid: description.Solid, shapes: Shapes, key: str) -> Mani
         return solids.box(size, min(solid.box.radius, 0.4999 * min(size)))
     makers = {
         "cylinder": _cylinder, "torus": _torus, "turned": _turned, "extruded": _extruded,
-        "swept": _swept, "lofted": _lofted, "coil": _coil,
+        "swept": _swept, "lofted": _lofted, "coil": _coil, "duct": _duct,
     }  # fmt: skip
     made: Manifold = makers[name](getattr(solid, name))  # type: ignore[operator]
-    if name in ("swept", "lofted"):
+    if name in ("swept", "lofted", "duct"):
         return made
     if name != "extruded":
         return made.rotate(_ONTO[solid.axis])
@@ -164,8 +166,10 @@ def _furrows(lobes: description.Lobes) -> Callable[[Array], Array]:
 
     def warp(points: Array) -> Array:
         points = np.asarray(points)
-        angle = np.arctan2(points[:, 1], points[:, 0])
-        factor = 1 - lobes.depth * (0.5 - 0.5 * np.cos(lobes.count * angle))
+        factor = furrow_factors(points, lobes)
+        if lobes.fade:
+            low, high = points[:, 2].min(), points[:, 2].max()
+            factor = 1 - (1 - factor) * np.clip((high - points[:, 2]) / (high - low), 0, 1)
         return np.asarray(points * np.column_stack([factor, factor, np.ones_like(factor)]))
 
     return warp
@@ -179,7 +183,7 @@ def _extruded(given: description.Extruded) -> Manifold:
         rings = [(inset, low), (polygon, low + bevel), (polygon, high - bevel), (inset, high)]
         return solids.loft([np.insert(ring, 2, height, axis=1) for ring, height in rings])
     holes = [outline(hole) for hole in given.holes]
-    made = solids.extrude(polygon, high - low, centred=False, holes=holes)
+    made = solids.extrude(polygon, high - low, holes)
     return made.translate((0.0, 0.0, low))
 
 
@@ -261,18 +265,34 @@ def _lofted(given: description.Lofted) -> Manifold:
     exponents = column.get("exponent", np.full(len(values), given.exponent))
     samples = round_samples(float(np.max(half)))
     outlines = [
-        (
-            lofts.even_superellipse(1.0, 1.0, power, samples)
-            if given.section is None
-            else outline(given.section)
-        )
-        * [first, second]
-        + centre
+        _loft_section(given, float(power), samples, (float(first), float(second))) + centre
         for first, second, power, centre in zip(
             *half, exponents, np.column_stack(middle), strict=True
         )
     ]
     return lofts.loft_along(along, stations, outlines)
+
+
+def _loft_section(
+    given: description.Lofted, exponent: float, samples: int, half_m: tuple[float, float]
+) -> Array:
+    """A section (N, 2), centred on the origin, with the given half widths."""
+    if given.section is not None:
+        return np.asarray(outline(given.section) * half_m)
+    if given.crown is None:
+        return lofts.even_superellipse(*half_m, exponent, samples)
+    top_m, bottom_m = (min(crown, 0.4 * half_m[1]) for crown in given.crown)
+    return lofts.crowned_section(half_m[0], -half_m[1], half_m[1], exponent, top_m, bottom_m)
+
+
+def _duct(given: description.Duct) -> Manifold:
+    rows = sections.smooth_curve(given.rows)
+    low, high = sections.in_xz(rows[:, :2]), sections.in_xz(rows[:, 2:4])
+    circle, across = sections.circle(1.0, 40), np.outer(rows[:, 4], [0.0, 1.0, 0.0])
+    middle, upright = (low + high)[:, None] / 2, (low - high)[:, None] / 2
+    return solids.loft(
+        middle + circle[None, :, :1] * upright + circle[None, :, 1:] * across[:, None]
+    )
 
 
 def _coil(given: description.Coil) -> Manifold:

@@ -1,19 +1,10 @@
 """Object models: named solids with materials and densities."""
 
 from dataclasses import dataclass
-from types import SimpleNamespace
 
 from manifold3d import Manifold
 
 from grasptypes.settings.roles import PartRole
-
-
-class Size(SimpleNamespace):
-    """Dimensions of a catalogue object: the numbers, and rows of them, in `catalogue.yaml`."""
-
-
-Solids = dict[str, Manifold]
-"""The solids of an object's parts by name, the first of which owns what it shares with others."""
 
 
 @dataclass(frozen=True)

@@ -6,7 +6,8 @@ import numpy as np
 from manifold3d import Manifold
 from numpy.typing import ArrayLike, NDArray
 
-from grasptypes.objects import sections, solids
+from grasptypes.kinds import sections
+from grasptypes.objects import solids
 
 Array = NDArray[np.float64]
 

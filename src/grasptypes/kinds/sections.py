@@ -1,4 +1,4 @@
-"""Plane curves and polygons (metres) to revolve, extrude, loft and sweep."""
+"""Plane curves and polygons (metres) to turn, extrude, loft and sweep."""
 
 from collections.abc import Sequence
 
@@ -104,14 +104,3 @@ def offset_curve(curve: ArrayLike, distance_m: float) -> Curve:
     tangents = np.gradient(points, axis=0)
     tangents /= np.linalg.norm(tangents, axis=1, keepdims=True)
     return points + distance_m * np.column_stack([-tangents[:, 1], tangents[:, 0]])
-
-
-def wall_profile(outer: ArrayLike, inner: ArrayLike) -> Curve:
-    """Outline of a vessel's wall: up the outer (radius, height) curve, down the inner one.
-
-    Both curves run from the axis (radius 0) at the bottom to the rim.
-
-    Returns:
-        (N, 2) closed counter-clockwise polygon for `solids.revolve`.
-    """
-    return chain(outer, np.asarray(inner, dtype=np.float64)[::-1])

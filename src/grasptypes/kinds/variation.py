@@ -7,8 +7,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from grasptypes.kinds.catalogue import build
 from grasptypes.objects import solids
-from grasptypes.objects.catalogue import build
 from grasptypes.objects.parts import ObjectModel
 from grasptypes.objects.variants import variant_of
 from grasptypes.seeds import rng

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from grasptypes.objects import lofts
+from grasptypes.kinds import lofts
 
 
 @pytest.mark.parametrize(("axis", "size"), [("x", (5, 1, 2)), ("y", (1, 5, 2)), ("z", (1, 2, 5))])

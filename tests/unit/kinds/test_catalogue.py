@@ -2,9 +2,10 @@
 
 import numpy as np
 import pytest
+from manifold3d import Manifold
 
+from grasptypes.kinds.catalogue import build, object_names
 from grasptypes.objects import solids
-from grasptypes.objects.catalogue import OBJECTS, build
 from grasptypes.objects.parts import ImportedModel
 from grasptypes.objects.preparation import physical_properties
 from grasptypes.settings.objects import CATALOGUE
@@ -71,15 +72,15 @@ def filled_share(what, point_mm):
     name, _, part_name = what.partition(" ")
     model = build(name)
     solids_of = {part.name: part.solid for part in model.parts} | {"": union(model)}
-    probe = solids.sphere(1e-4, 16).translate(tuple(1e-3 * x for x in point_mm))
+    probe = Manifold.sphere(1e-4, 16).translate(tuple(1e-3 * x for x in point_mm))
     return (solids_of[part_name] ^ probe).volume() / probe.volume()
 
 
 def test_the_settings_name_the_same_objects():
-    assert sorted(CATALOGUE) == sorted(OBJECTS) == sorted(BOUNDS_MM)
+    assert sorted(CATALOGUE) == sorted(object_names()) == sorted(BOUNDS_MM)
 
 
-@pytest.mark.parametrize("name", OBJECTS)
+@pytest.mark.parametrize("name", object_names())
 def test_objects_are_bodies_one_can_hold(name):
     model = build(name)
     solid = union(model)
@@ -95,7 +96,7 @@ def test_objects_are_bodies_one_can_hold(name):
     assert moments[2] <= moments[0] + moments[1]
 
 
-@pytest.mark.parametrize("name", OBJECTS)
+@pytest.mark.parametrize("name", object_names())
 def test_every_part_shows_and_is_built_the_same_every_time(name):
     parts, again = build(name).parts, build(name).parts
     for index, part in enumerate(parts):
@@ -125,7 +126,7 @@ def test_handle_leaves_a_hole(name):
 def test_scissors_let_fingers_through_both_loops():
     solid = union(build("scissors"))
     for x_mm in (-19, 19):
-        hole = solids.cylinder(0.011, 0.1).translate((1e-3 * x_mm, 0.026, 0.0))
+        hole = Manifold.cylinder(0.1, 0.011, center=True).translate((1e-3 * x_mm, 0.026, 0.0))
         assert (solid ^ hole).volume() == 0
 
 
