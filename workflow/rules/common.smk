@@ -1,7 +1,7 @@
 # Shared by all rules: the checked parameters, the names to loop over, and content hashes.
 import re
 
-from grasptypes.contact_maps.holds import HOLDS
+from grasptypes.settings.holds import HOLDS
 from grasptypes.hands.folders import hand_files, hand_folder
 from grasptypes.labels.label_sources import (
     FETCHED,
@@ -30,6 +30,7 @@ try:
     REFERENCE_MESHES = [str(path) for path in reference_meshes(os.environ)]
     OBJECTS, VARIANTS = all_objects(PARAMS.objects), all_variants(PARAMS.objects)
     TASKS = list(config["tasks"])
+    FITTED_ON = [name for name in config["grasp_types"]["fitted_on"] if name in OBJECTS]
     KNOWN = label_sources(config["labels"], PUBLISHED_COUNTS, OBJECTS, TASKS)
     for name in (config["hand"], config["published"]["hand"]):
         hand_folder(name)

@@ -1,9 +1,6 @@
 """The 19 objects of ContactGrasp (Brahmbhatt et al. 2019) by name."""
 
 from collections.abc import Callable
-from functools import cache
-from pathlib import Path
-from typing import Any
 
 from grasptypes.objects import (
     bathroom,
@@ -16,11 +13,8 @@ from grasptypes.objects import (
     turned,
     vessels,
 )
+from grasptypes.objects.part_roles import part_roles, read_catalogue
 from grasptypes.objects.parts import Material, ObjectModel, Part, Size, Solids
-from grasptypes.settings.roles import PartRole
-from grasptypes.yaml_files import read_yaml
-
-CATALOGUE = Path(__file__).with_suffix(".yaml")
 
 OBJECTS: dict[str, Callable[[Size], Solids]] = {
     "apple": fruit.apple,
@@ -47,22 +41,16 @@ OBJECTS: dict[str, Callable[[Size], Solids]] = {
 
 def build(name: str, **changes: float) -> ObjectModel:
     """Build an object as `catalogue.yaml` describes it, with some of its dimensions changed."""
-    entry = _catalogue()[name]
+    entry = read_catalogue()[name]
     looks = {key: dict(look) for key, look in entry["materials"].items()}
     densities = {key: look.pop("density_kg_m3", None) for key, look in looks.items()}
     materials = {
         key: Material(tuple(look.pop("base_color")), **look) for key, look in looks.items()
     }
     shapes = OBJECTS[name](Size(**(entry["size"] | changes)))
+    roles = part_roles(name)
     parts = []
     for part, solid in shapes.items():
-        described = dict(entry["parts"][part])
-        material = described.pop("material")
-        role = PartRole.check(described, f"{CATALOGUE}: {name}.parts.{part}")
-        parts.append(Part(part, solid, materials[material], densities[material], role))
+        material = entry["parts"][part]["material"]
+        parts.append(Part(part, solid, materials[material], densities[material], roles[part]))
     return ObjectModel(tuple(parts), entry["density_kg_m3"], entry.get("shell_thickness_m"))
-
-
-@cache
-def _catalogue() -> dict[str, Any]:
-    return read_yaml(CATALOGUE)
