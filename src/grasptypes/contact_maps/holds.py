@@ -25,8 +25,8 @@ from grasptypes.settings.tasks import Task, read_tasks
 Array = NDArray[np.float64]
 # Far beyond any difference that the published labels show.
 SMALLEST_FIT, LARGEST_FIT = 1e-3, 1e3
-# A cross-section is round if its extents differ by less; directions tried around it.
-ROUND, AROUND = 0.8, 8
+# A cross-section is round if its extents differ by less, flat if by more; directions around it.
+ROUND, FLAT, AROUND = 0.8, 0.5, 8
 
 
 def object_holds(
@@ -163,7 +163,8 @@ def position(held: HeldObject, place: Place, task: Task, table: HoldTable) -> tu
 def palm_sides(held: HeldObject, place: Place, grip: str, hand: HumanHand) -> Array:
     """Unit vectors (K, 3) from a place to the palm; none if other parts are in the way everywhere.
 
-    A wrap or a pinch comes from beside the axis, a rim grip over the rim, the others from any side.
+    A wrap or a pinch comes from beside the axis, and from the edges of what is flat, so that the
+    fingers close across its thickness. A rim grip comes over the rim, the others from any side.
     """
     axis, wide, thin = place.frame
     if grip == "rim":
@@ -173,6 +174,9 @@ def palm_sides(held: HeldObject, place: Place, grip: str, hand: HumanHand) -> Ar
         sides = np.outer(np.cos(angles), wide) + np.outer(np.sin(angles), thin)
     else:
         sides = np.array([wide, -wide, thin, -thin])
+    flat = place.extents_m[2] < FLAT * place.extents_m[1]
+    if flat and grip in ("wrap", "pinch"):
+        sides = sides[:2]
     if grip in ("enclose", "tripod"):
         sides = np.vstack([sides, axis, -axis])
     return sides[[not _blocked(held, place, side, hand) for side in sides]]
