@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Mapping
 from pathlib import Path
 
-from grasptypes.contact_maps.holds import read_hold_table
 from grasptypes.errors import InputError
 from grasptypes.kinds.names import check_names
 from grasptypes.labels.label_sources import check_published
 from grasptypes.objects.own_objects import check_every_hold, check_own_objects
 from grasptypes.objects.reference_meshes import reference_meshes
+from grasptypes.settings.holds import check_tasks, read_hold_table
 from grasptypes.settings.params import Params
 from grasptypes.settings.tasks import read_tasks
 from grasptypes.versions.guard import check_cache_links
@@ -30,7 +30,7 @@ def check_start(params: Params, root: str | Path, environment: Mapping[str, str]
     if set(str(root)) & set("{}"):
         raise InputError(root, "", "Snakemake treats braces as wildcards; move the checkout")
     check_cache_links(root)
-    read_hold_table()
+    check_tasks(read_tasks(), read_hold_table())
     check_own_objects(params.objects)
     check_names(params.kinds.names)
     check_every_hold(params.objects, {name: read_tasks()[name] for name in params.tasks})

@@ -8,6 +8,7 @@ from pathlib import Path
 import command_cases
 import hand_cases
 import kind_cases
+import knowledge_cases
 import map_cases
 import mesh_cases
 import params_cases
@@ -22,6 +23,7 @@ MODULES = (
     mesh_cases,
     map_cases,
     table_cases,
+    knowledge_cases,
     weights_cases,
     picture_cases,
     command_cases,

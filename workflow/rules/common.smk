@@ -1,7 +1,7 @@
 # Shared by all rules: the checked parameters, the names to loop over, and content hashes.
 import re
 
-from grasptypes.contact_maps.holds import HOLDS
+from grasptypes.settings.holds import HOLDS
 from grasptypes.hands.folders import hand_files, hand_folder
 from grasptypes.labels.label_sources import (
     FETCHED,
@@ -19,7 +19,7 @@ from grasptypes.start_up import check_start
 from grasptypes.content_hash import CodeHash, FileHash
 
 PUBLISHED_COUNTS = "assets/published_labels.csv"
-CATALOGUE = f"{workflow.basedir}/src/grasptypes/kinds/catalogue.yaml"
+CATALOGUE = f"{workflow.basedir}/src/grasptypes/objects/catalogue.yaml"
 # How people hold parts by role, size and task.
 KNOWLEDGE = [str(path) for path in (ROLES, TASKS_FILE, HOLDS)]
 
@@ -30,6 +30,7 @@ try:
     REFERENCE_MESHES = [str(path) for path in reference_meshes(os.environ)]
     OBJECTS, VARIANTS = all_objects(PARAMS.objects), all_variants(PARAMS.objects)
     TASKS = list(config["tasks"])
+    FITTED_ON = [name for name in config["grasp_types"]["fitted_on"] if name in OBJECTS]
     KNOWN = label_sources(config["labels"], PUBLISHED_COUNTS, OBJECTS, TASKS)
     for name in (config["hand"], config["published"]["hand"]):
         hand_folder(name)

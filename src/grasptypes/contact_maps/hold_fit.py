@@ -20,8 +20,8 @@ from grasptypes.contact_maps.hold import GRIP_OF_TYPE
 from grasptypes.contact_maps.holds import applies, measures, place_weight
 from grasptypes.contact_maps.placement import HumanHand
 from grasptypes.contact_maps.places import HeldObject, Place, find_places
-from grasptypes.settings.contact_maps import HoldFitSettings, HoldTable
 from grasptypes.settings.grasp_types import Softness, Thresholds
+from grasptypes.settings.holds import HoldFitSettings, HoldTable
 from grasptypes.settings.tasks import Task
 
 Array = NDArray[np.float64]
@@ -33,9 +33,18 @@ MIDDLE, SLICES = 0.7, 5
 
 @dataclass(frozen=True)
 class Parameter:
-    """A free number of the table: its key, its logarithm or exponent without labels, its spread."""
+    """A free number of the table of holds.
+
+    Attributes:
+        key: in the table.
+        in_table: its value there.
+        logarithmic: whether its natural logarithm is fitted.
+        expected, sd: mean and standard deviation of what is fitted, without any labels.
+    """
 
     key: str
+    in_table: float
+    logarithmic: bool
     expected: float
     sd: float
 
@@ -71,13 +80,13 @@ class Problem:
 def free_parameters(table: HoldTable, settings: HoldFitSettings) -> list[Parameter]:
     """The free numbers: log priors of the fitted groups, and exponents of the fits."""
     priors = [
-        Parameter(f"groups.{name}.grips.{grip}", 0.0, settings.prior_sd)
+        Parameter(f"groups.{name}.grips.{grip}", prior, True, 0.0, settings.prior_sd)
         for name, group in table.groups.items()
         if group.fitted
-        for grip in group.grips
+        for grip, prior in group.grips.items()
     ]
     powers = [
-        Parameter(f"fits.{index}.power", fit.expected, settings.power_sd)
+        Parameter(f"fits.{index}.power", fit.power, False, fit.expected, settings.power_sd)
         for index, fit in enumerate(table.fits)
     ]
     return priors + powers

@@ -9,8 +9,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
-from functools import cache
-from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,26 +19,14 @@ from grasptypes.contact_maps.placement import HumanHand
 from grasptypes.contact_maps.places import GRAVITY_M_S2, HeldObject, Place, find_places
 from grasptypes.errors import InputError
 from grasptypes.objects.object_geometry import ObjectGeometry
-from grasptypes.settings.contact_maps import Fit, HoldTable, Measure
+from grasptypes.settings.holds import Fit, HoldTable, Measure, read_hold_table
 from grasptypes.settings.tasks import Task, read_tasks
-from grasptypes.yaml_files import read_yaml
 
 Array = NDArray[np.float64]
-HOLDS = Path(__file__).with_suffix(".yaml")
 # Far beyond any difference that the published labels show.
 SMALLEST_FIT, LARGEST_FIT = 1e-3, 1e3
-# A cross-section is round if its extents differ by less; directions tried around it.
-ROUND, AROUND = 0.8, 8
-
-
-@cache
-def read_hold_table(path: str | Path = HOLDS) -> HoldTable:
-    """The table of holds.
-
-    Raises:
-        InputError: names the file and the key of the first mistake.
-    """
-    return HoldTable.check(read_yaml(path), path)
+# A cross-section is round if its extents differ by less, flat if by more; directions around it.
+ROUND, FLAT, AROUND = 0.8, 0.5, 8
 
 
 def object_holds(
@@ -88,11 +74,13 @@ def _frequent(holds: Sequence[Hold], rarest: float) -> list[Hold]:
 
     Holds with the same grip are neighbours, so that sessions follow the grips' shares best.
     """
-    total = sum(hold.probability for hold in holds)
-    share = {
-        grip: sum(h.probability for h in holds if h.grip == grip) / total for grip in STYLE_OF_GRIP
-    }
-    kept = [hold for hold in holds if share[hold.grip] >= rarest]
+    if not holds:
+        return []
+    of_grip = dict.fromkeys(STYLE_OF_GRIP, 0.0)
+    for hold in holds:
+        of_grip[hold.grip] += hold.probability
+    total = sum(of_grip.values())
+    kept = [hold for hold in holds if of_grip[hold.grip] >= rarest * total]
     kept.sort(key=lambda hold: (hold.grip, hold.part))
     total = sum(hold.probability for hold in kept)
     return [replace(hold, probability=hold.probability / total) for hold in kept]
@@ -175,7 +163,8 @@ def position(held: HeldObject, place: Place, task: Task, table: HoldTable) -> tu
 def palm_sides(held: HeldObject, place: Place, grip: str, hand: HumanHand) -> Array:
     """Unit vectors (K, 3) from a place to the palm; none if other parts are in the way everywhere.
 
-    A wrap or a pinch comes from beside the axis, a rim grip over the rim, the others from any side.
+    A wrap or a pinch comes from beside the axis, and from the edges of what is flat, so that the
+    fingers close across its thickness. A rim grip comes over the rim, the others from any side.
     """
     axis, wide, thin = place.frame
     if grip == "rim":
@@ -185,6 +174,9 @@ def palm_sides(held: HeldObject, place: Place, grip: str, hand: HumanHand) -> Ar
         sides = np.outer(np.cos(angles), wide) + np.outer(np.sin(angles), thin)
     else:
         sides = np.array([wide, -wide, thin, -thin])
+    flat = place.extents_m[2] < FLAT * place.extents_m[1]
+    if flat and grip in ("wrap", "pinch"):
+        sides = sides[:2]
     if grip in ("enclose", "tripod"):
         sides = np.vstack([sides, axis, -axis])
     return sides[[not _blocked(held, place, side, hand) for side in sides]]

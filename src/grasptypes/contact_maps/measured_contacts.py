@@ -24,7 +24,7 @@ from grasptypes.settings.contact_maps import MeasuredMapSettings
 
 Array = NDArray[np.float64]
 GRIPS = tuple(STYLE_OF_GRIP)
-SIDES = np.vstack([np.eye(3), -np.eye(3)])
+SIDES = np.array([sign * axis for axis in np.eye(3) for sign in (1.0, -1.0)])
 # Fewer warm points do not define a longest extent.
 MIN_WARM_POINTS = 3
 

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from grasptypes.contact_maps.placement import SurfacePoints
 from grasptypes.objects.object_geometry import ObjectGeometry
-from grasptypes.settings.contact_maps import HoldTable
+from grasptypes.settings.holds import HoldTable
 from grasptypes.settings.roles import PartRole
 from grasptypes.settings.tasks import Task
 

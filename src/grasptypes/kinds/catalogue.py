@@ -2,18 +2,12 @@
 
 from __future__ import annotations
 
-from functools import cache
-from pathlib import Path
-from typing import Any
-
 from grasptypes.errors import InputError
 from grasptypes.kinds.description import KindPart, MeasuredObject
 from grasptypes.kinds.modelling import build_parts
+from grasptypes.objects.part_roles import CATALOGUE, read_catalogue
 from grasptypes.objects.parts import Material, ObjectModel
 from grasptypes.settings.base import MisplacedError
-from grasptypes.yaml_files import read_yaml
-
-CATALOGUE = Path(__file__).with_suffix(".yaml")
 
 
 def build(name: str) -> ObjectModel:
@@ -22,7 +16,7 @@ def build(name: str) -> ObjectModel:
     Raises:
         InputError: the description has a mistake.
     """
-    described = MeasuredObject.check(_catalogue()[name], CATALOGUE)
+    described = MeasuredObject.check(read_catalogue()[name], CATALOGUE)
 
     def look(_: str, part: KindPart) -> tuple[Material, float | None]:
         given = described.materials[part.material]
@@ -39,9 +33,4 @@ def build(name: str) -> ObjectModel:
 
 def object_names() -> list[str]:
     """The names of all objects."""
-    return list(_catalogue())
-
-
-@cache
-def _catalogue() -> dict[str, Any]:
-    return read_yaml(CATALOGUE)
+    return list(read_catalogue())

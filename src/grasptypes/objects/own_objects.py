@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from pathlib import Path
 
 from grasptypes.errors import InputError
+from grasptypes.objects.part_roles import part_roles
 from grasptypes.settings.objects import ObjectSettings
 from grasptypes.settings.tasks import Task
 
@@ -31,7 +32,7 @@ def measured_map(objects: ObjectSettings, name: str, task: str) -> str | None:
 def check_every_hold(
     objects: ObjectSettings, tasks: Mapping[str, Task], path: str | Path = "params.yaml"
 ) -> None:
-    """Check that every own object has a way to be held for every task.
+    """Check that every object has a way to be held for every task.
 
     Args:
         tasks: the tasks of the run.
@@ -41,15 +42,26 @@ def check_every_hold(
         InputError: names the first object and task with neither a measured map nor a part with a
             role that the task touches.
     """
+    for name in objects.names:
+        for task, described in tasks.items():
+            if not _touched(described) & {part.role for part in part_roles(name).values()}:
+                roles = ", ".join(described.touched)
+                message = f"{name} has no part that people touch for it (roles: {roles})"
+                raise InputError(path, f"tasks.{task}", message)
     for name, own in objects.own.items():
         for task, described in tasks.items():
-            touched = {role for role, weight in described.touched.items() if weight > 0}
-            if task in own.contact_maps or touched & {part.role for part in own.parts.values()}:
+            known = {part.role for part in own.parts.values()}
+            if task in own.contact_maps or _touched(described) & known:
                 continue
             raise InputError(
                 path,
                 f"objects.own.{name}",
-                f"nobody knows how to hold it for {task}: give a part a role that {task} touches "
+                f"has no way to be held for {task}: give a part a role that {task} touches "
                 f"(parts: {{body: {{role: {next(iter(described.touched))}}}}}), or set "
                 f"contact_maps.{task}",
             )
+
+
+def _touched(task: Task) -> set[str]:
+    """Roles that people touch for a task."""
+    return {role for role, weight in task.touched.items() if weight > 0}

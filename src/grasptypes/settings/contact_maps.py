@@ -1,14 +1,8 @@
-"""Sections `contact_maps` and `contact_evidence`: how people hold and touch the objects."""
+"""Section `contact_maps`: how people hold and touch the objects."""
 
 from __future__ import annotations
 
-from typing import Literal
-
-from grasptypes.settings.base import Many, Name, Settings, Share, Unique, setting
-from grasptypes.settings.roles import RoleName
-from grasptypes.settings.tasks import Factor, Grip
-
-Measure = Literal["length", "width", "thickness", "compactness", "load_n"]
+from grasptypes.settings.base import Many, Settings, Share, setting
 
 
 class HandLengths(Settings):
@@ -64,41 +58,6 @@ class MeasuredMapSettings(Settings):
     )
 
 
-class HoldGroup(Settings):
-    """Roles that people hold alike."""
-
-    roles: Unique[RoleName] = setting("roles of the parts", min_length=1)
-    grips: dict[Grip, Factor] = setting("prior of each grip, relative to the others", min_length=1)
-    fitted: bool = setting("whether the priors are fitted to published labels")
-    held_at: Literal["task", "centre_of_mass"] = setting(
-        "where along its axis: where the task says, or near the centre of mass"
-    )
-    reason: str = setting("why, or the evidence", min_length=1)
-
-
-class Fit(Settings):
-    """How well grips fit by size or weight: a factor (measure / at) ** power from `at` upwards."""
-
-    grips: Unique[Grip] = setting("grips it applies to", min_length=1)
-    groups: Unique[Name] = setting("groups it applies to; empty: all", default=())
-    measure: Measure = setting("what is measured")
-    at: float = setting("value up to which the factor is 1", gt=0, le=100)
-    expected: float = setting("exponent without any labels", ge=-10, le=10)
-    power: float = setting(
-        "exponent fitted to published labels; negative: the larger, the worse", ge=-10, le=10
-    )
-    reason: str = setting("why, or the evidence", min_length=1)
-
-
-class HoldTable(Settings):
-    """How people hold parts, by role, size and weight."""
-
-    groups: dict[Name, HoldGroup] = setting("groups of roles", min_length=1)
-    area_power: float = setting("exponent of a place's share of the surface", ge=0, le=2)
-    rarest: Share = setting("grips that a smaller share of people would use are left out")
-    fits: Many[Fit] = setting("how grips depend on size and weight")
-
-
 class ContactMapSettings(Settings):
     """How contact maps are drawn."""
 
@@ -111,24 +70,3 @@ class ContactMapSettings(Settings):
     hand: HandProportions
     placement: PlacementSettings
     measured: MeasuredMapSettings
-
-
-class HoldFitSettings(Settings):
-    """How the free numbers of the table of holds are fitted to published labels."""
-
-    grasps: float = setting("grasps of an object and task that count as independent", gt=0, le=100)
-    label_noise: Share = setting("share of grasps whose type says nothing")
-    prior_sd: float = setting(
-        "standard deviation of the priors' natural logarithms without labels", gt=0, le=10
-    )
-    power_sd: float = setting("standard deviation of the exponents without labels", gt=0, le=10)
-    relatives: Many[Unique[str]] = setting("objects that are left out together")
-
-
-class ContactEvidenceSettings(Settings):
-    """How the places that published poses touch are measured."""
-
-    hand_spacing_m: float = setting(
-        "distance between neighbouring points on the hand", ge=0.001, le=0.05
-    )
-    touch_m: float = setting("surfaces closer than this touch", gt=0, le=0.05)

@@ -10,12 +10,9 @@ from pydantic import AfterValidator, model_validator
 from grasptypes.errors import InputError
 from grasptypes.settings.base import MisplacedError, Name, Settings, Unique, setting
 from grasptypes.settings.commands import PlanSettings, PredictSettings, TrackingSettings
-from grasptypes.settings.contact_maps import (
-    ContactEvidenceSettings,
-    ContactMapSettings,
-    HoldFitSettings,
-)
+from grasptypes.settings.contact_maps import ContactMapSettings
 from grasptypes.settings.grasp_types import GraspTypeSettings, PublishedSettings, ReplaySettings
+from grasptypes.settings.holds import HoldFitSettings
 from grasptypes.settings.kinds import KindSettings
 from grasptypes.settings.objects import ObjectSettings, TaskSettings
 from grasptypes.settings.physics import GraspTestSettings
@@ -59,7 +56,6 @@ class Params(Settings):
     published: PublishedSettings
     replay: ReplaySettings
     contact_pictures: ContactPictureSettings
-    contact_evidence: ContactEvidenceSettings
     hold_fit: HoldFitSettings
     synthesis: SynthesisSettings
     physics: GraspTestSettings
