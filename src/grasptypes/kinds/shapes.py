@@ -21,6 +21,8 @@ Shapes = Mapping[str, Manifold]
 _ONTO = {"x": (0.0, 90.0, 0.0), "y": (-90.0, 0.0, 0.0), "z": (0.0, 0.0, 0.0)}
 _PLANE_ONTO = {"x": (90.0, 0.0, 90.0), "y": (90.0, 0.0, 0.0), "z": (0.0, 0.0, 0.0)}
 COIL_STEPS, SCALE_SAMPLES = 24, 17
+# A nanometre: far above rounding, far below anything that is modelled.
+ROUNDED_DIGITS = 9
 
 
 def union(described: Sequence[description.Solid], shapes: Shapes, key: str) -> Manifold:
@@ -57,9 +59,11 @@ def build(solid: description.Solid, shapes: Shapes, key: str) -> Manifold:
 
 def between(solid: Manifold, axis: str, low_m: float, high_m: float) -> Manifold:
     """What lies between two positions along an axis."""
-    # Slices of one solid that meet vanish in their union, as `solids.slabs` explains.
-    above, _ = solid.split_by_plane(tuple(float(name == axis) for name in "xyz"), low_m)
-    return above.split_by_plane(tuple(float(name == axis) for name in "xyz"), high_m)[1]
+    normal = (float(axis == "x"), float(axis == "y"), float(axis == "z"))
+    above, _ = solid.split_by_plane(normal, low_m)
+    _, inside = above.split_by_plane(normal, high_m)
+    # Slices of one solid vanish in their union only if they meet exactly.
+    return inside.warp_batch(lambda points: np.round(points, ROUNDED_DIGITS))
 
 
 def _copies(made: Manifold, solid: description.Solid) -> Manifold:

@@ -141,10 +141,3 @@ def test_small_parts_are_where_they_belong():
     bristles, head = boxes["toothbrush"]["bristles"], boxes["toothbrush"]["head"]
     assert bristles[0, 1] < head[0, 1] - 5
     assert head[0, 0] < bristles[0, 0] < bristles[1, 0] < head[1, 0] + 0.5
-
-
-def test_dimensions_can_be_changed():
-    longer = union(build("hammer", face_end_y_m=0.060))
-    assert bounds_mm(longer)[1, 1] == pytest.approx(60)
-    smaller = build("scissors", loop_width_m=0.030, bow_outer_radius_m=0.014)
-    assert len(union(smaller).decompose()) == 1
