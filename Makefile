@@ -50,6 +50,10 @@ generalisation: setup ## what more shapes of every object buy on unseen objects:
 test-own: setup ## three tasks, four objects, one of them a mesh with a measured contact map: to Table I
 	pytest -m slow tests/workflow/test_own_things.py
 
+.PHONY: kinds
+kinds: setup ## contact sheets of all kinds of objects: reports/kinds/<group>.png
+	snakemake -j$(JOBS) kind_sheets
+
 scaling: setup ## time and memory against the number of objects: reports/scaling.csv
 	python benchmarks/scaling.py
 

@@ -53,6 +53,7 @@ include: "workflow/rules/details.smk"
 include: "workflow/rules/generalisation.smk"
 include: "workflow/rules/planning.smk"
 include: "workflow/rules/tracking.smk"
+include: "workflow/rules/kinds.smk"
 
 
 wildcard_constraints:
@@ -68,6 +69,8 @@ localrules:
     label_published,
     split_folds,
     label_grasps,
+    label_kind_grasps,
+    tabulate_kinds,
     compare_distribution,
     tabulate_simulated,
     tabulate_published,

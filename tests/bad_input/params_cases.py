@@ -9,7 +9,6 @@ from case import PARAMS, ROOT, Case, start
 
 from grasptypes.yaml_files import merge
 
-AFFINITIES = {"assets/affinities.csv": (ROOT / "assets/affinities.csv").read_bytes()}
 BOX = {"file": "box.stl", "unit": "mm", "mass_kg": 0.1}
 
 
@@ -21,13 +20,13 @@ def text(what: str, content: str | bytes, *names: str) -> Case:
 def change(what: str, changes: dict[str, Any], *names: str, **files: bytes) -> Case:
     """The project's parameters with one thing changed."""
     content = yaml.safe_dump(merge(PARAMS, changes), sort_keys=False)
-    written = {"params.yaml": content, **AFFINITIES} | {f"{k}.stl": v for k, v in files.items()}
+    written = {"params.yaml": content} | {f"{k}.stl": v for k, v in files.items()}
     return Case("params.yaml", what, written, start, ("params.yaml", *names))
 
 
 def environment(what: str, name: str, value: str, *names: str) -> Case:
     """A variable that leads nowhere."""
-    files = {"params.yaml": (ROOT / "params.yaml").read_bytes(), **AFFINITIES}
+    files = {"params.yaml": (ROOT / "params.yaml").read_bytes()}
     return Case("environment", what, files, start, (name, *names), {name: value})
 
 
@@ -60,7 +59,8 @@ CASES = [
     change("below the range", {"objects": {"scale": 0}}, "objects.scale", "0"),
     change("a list for a mapping", {"tasks": ["use"]}, "tasks", "is not a mapping"),
     change("a task named none", {"tasks": {"none": {"colour_shift": 1}}}, "tasks.none", "no task"),
-    change("a shift used twice", {"tasks": {"give": {"colour_shift": 10}}}, "is also that of use"),
+    change("a shift used twice", {"tasks": {"wash": {"colour_shift": 10}}}, "is also that of use"),
+    change("an unknown task", {"tasks": {"give": {"colour_shift": 1}}}, "tasks.give", "tasks.yaml"),
     change("a range upside down", {"objects": {"variation": {"size": [2, 1]}}}, "2 is above 1"),
     change("an empty list", {"labels": []}, "labels", "has 0 values, at least 1 are needed"),
     change("too few values", {"predictors": {"hidden": [1, 2]}}, "predictors.hidden", "2 values"),

@@ -7,6 +7,8 @@ from pathlib import Path
 
 import command_cases
 import hand_cases
+import kind_cases
+import knowledge_cases
 import map_cases
 import mesh_cases
 import params_cases
@@ -21,10 +23,12 @@ MODULES = (
     mesh_cases,
     map_cases,
     table_cases,
+    knowledge_cases,
     weights_cases,
     picture_cases,
     command_cases,
     hand_cases,
+    kind_cases,
     plan_cases,
 )
 CASES: list[Case] = [case for module in MODULES for case in module.CASES]

@@ -1,4 +1,4 @@
-"""Mistakes in tables: the authors' CSV and the affinity table."""
+"""Mistakes in the authors' table."""
 
 from __future__ import annotations
 
@@ -6,9 +6,8 @@ import hashlib
 from pathlib import Path
 
 import pandas as pd
-from case import ROOT, Case, library, script, start
+from case import Case, library, script
 
-from grasptypes.contact_maps.affinities import COLUMNS
 from grasptypes.hands.reading import load_hand
 from grasptypes.labels.label_sources import PUBLISHED, fetch_published
 
@@ -18,8 +17,6 @@ ROW = {
     "GraspTypeIndex": "6", "Rank": "1", "Error": "-0.2", "PoseIndex": "17",
     "HandConfiguration": POSE, "Image": "",
 }  # fmt: skip
-HOLD = "mug,use,handle,wrap,+x,z,0.3,0.7,2,to drink"
-PARAMS = (ROOT / "params.yaml").read_bytes()
 
 
 def csv(*changes: dict[str, str], drop: str = "", separator: str = ",") -> str:
@@ -39,18 +36,6 @@ def published(what: str, content: str | bytes, *names: str) -> Case:
 def cell(what: str, column: str, content: str, *names: str) -> Case:
     """One wrong cell in the second row."""
     return published(what, csv({}, {column: content}), f"line 3, {column}", *names)
-
-
-def affinities(what: str, content: str | bytes, *names: str) -> Case:
-    """The table that contact_maps.affinities names."""
-    table = "assets/affinities.csv"
-    files: dict[str, str | bytes] = {"params.yaml": PARAMS, table: content}
-    return Case("affinity table", what, files, start, (table, *names))
-
-
-def holds(*rows: str) -> str:
-    """An affinity table."""
-    return "\n".join([",".join(COLUMNS), *rows]) + "\n"
 
 
 def fetched(what: str, address: str, *names: str) -> Case:
@@ -91,21 +76,4 @@ CASES = [
     fetched(
         "an unreachable host", f"http://127.0.0.1:9/t.csv#sha256={SHA256}", "127.0.0.1:9", "path"
     ),
-    affinities("empty", b"", "line 1", "the columns must be"),
-    affinities("not UTF-8", b"\xff\xfe\x00", "not UTF-8"),
-    affinities("other columns", "object,task\nmug,use\n", "line 1", "object, task, part"),
-    affinities("a row too long", holds(HOLD + ",more"), "line 2", "10 cells"),
-    affinities("an unknown object", holds(HOLD.replace("mug", "jug")), "line 2, object", "'jug'"),
-    affinities("an unknown grip", holds(HOLD.replace("wrap", "hug")), "line 2, grip", "'hug'"),
-    affinities("an unknown side", holds(HOLD.replace("+x", "x")), "line 2, approach"),
-    affinities("an unknown axis", holds(HOLD.replace(",z,", ",w,")), "line 2, axis"),
-    affinities("a height below the lowest", holds(HOLD.replace("0.7", "0.2")), "line 2, high"),
-    affinities("a weight of -1", holds(HOLD.replace(",2,", ",-1,")), "line 2, affinity"),
-    affinities("a weight without a number", holds(HOLD.replace(",2,", ",much,")), "line 2"),
-    affinities("an infinite weight", holds(HOLD.replace(",2,", ",inf,")), "line 2, affinity"),
-    affinities("no weight at all", holds(HOLD.replace(",2,", ",0,")), "affinity", "is zero"),
-    affinities("a height of 1.3", holds(HOLD.replace("0.3", "1.3")), "line 2, low", "0 and 1"),
-    affinities("NaN", holds(HOLD.replace(",2,", ",nan,")), "line 2, affinity"),
-    affinities("no reason", holds(HOLD.replace("to drink", "")), "line 2, reason"),
-    affinities("an object without a row", holds(HOLD), "apple and use", "no row"),
 ]

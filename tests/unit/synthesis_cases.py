@@ -87,5 +87,6 @@ def ball_object(
         watertight=True,
         bounds_m=mesh.bounds.tolist(),
         repairs=[],
+        roles={},
     )
     return ObjectGeometry(folder, properties)

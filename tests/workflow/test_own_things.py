@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 import json
 from pathlib import Path
 
@@ -11,8 +10,6 @@ import pandas as pd
 import pytest
 import trimesh
 from repository import Repository
-
-from grasptypes.contact_maps.affinities import COLUMNS
 
 MODELS = ["no_task", "task_vector", "task_in_image", "ignores_task"]
 SESSIONS = 3
@@ -31,6 +28,7 @@ def add_own_things(repository: Repository, **changes: object) -> None:
         "file": "meshes/tube.stl",
         "unit": "mm",
         "mass_kg": 0.15,
+        "parts": {"body": {"role": "grip_body"}},
         "contact_maps": {"use": "meshes/tube_use.ply"},
     }
     values = {
@@ -41,23 +39,6 @@ def add_own_things(repository: Repository, **changes: object) -> None:
     }
     for key, value in values.items():
         repository.set_param(key, value)
-    add_rows(repository.path / "assets/affinities.csv")
-
-
-def add_rows(table: Path) -> None:
-    """How people hold the objects to wash them, and the tube for what no map was measured."""
-    held = {"banana": ("*", ""), "mug": ("wall", "z"), "water_bottle": ("label", "z")}
-    rows = [
-        (name, "wash", part, "wrap", "around", axis, 0.4, 0.6, 1, "test")
-        for name, (part, axis) in held.items()
-    ]
-    rows += [
-        (TUBE, task, "*", "wrap", "around", "z", 0.3, 0.7, 1, "test")
-        for task in ("handoff", "wash")
-    ]
-    with table.open("a", encoding="utf-8", newline="") as file:
-        csv.writer(file, lineterminator="\n").writerows(rows)
-    assert len(rows[0]) == len(COLUMNS)
 
 
 def write_tube(folder: Path) -> None:

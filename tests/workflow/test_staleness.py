@@ -33,8 +33,8 @@ SHARED = {"tabulate_results": ["tabulate_simulated", "tabulate_published", "tabu
 # Parameters of users' own objects, commands, and targets outside `all`, and whatever is below them.
 OUTSIDE = (
     *("objects.names", "objects.own", "objects.import", "objects.variants", "objects.variation"),
-    *("objects.variant_views", "objects.comparison", "contact_maps.measured", "contact_evidence"),
-    *("published", "replay", "generalisation", "plan", "predict", "labels"),
+    *("objects.variant_views", "objects.comparison", "contact_maps.measured", "hold_fit"),
+    *("published", "replay", "generalisation", "plan", "predict", "labels", "kinds"),
     *("grasp_types.fitted_on", "grasp_types.softness", "grasp_types.own_frames"),
 )
 
@@ -151,6 +151,9 @@ def test_every_module_reruns_the_rules_that_import_it(workflow: Workflow) -> Non
         (f"{BARRETT}/collision/distal_fingertip.obj", "synthesize_grasps"),
         ("assets/published_labels.csv", "label_published"),
         ("src/grasptypes/objects/catalogue.yaml", "prepare_object"),
+        ("src/grasptypes/settings/roles.yaml", "map_contacts"),
+        ("src/grasptypes/settings/tasks.yaml", "map_contacts"),
+        ("src/grasptypes/settings/holds.yaml", "map_contacts"),
     ],
 )
 def test_an_asset_reruns_its_readers(workflow: Workflow, asset: str, rule: str) -> None:

@@ -1,6 +1,7 @@
 # Shared by all rules: the checked parameters, the names to loop over, and content hashes.
 import re
 
+from grasptypes.settings.holds import HOLDS
 from grasptypes.hands.folders import hand_files, hand_folder
 from grasptypes.labels.label_sources import (
     FETCHED,
@@ -13,19 +14,24 @@ from grasptypes.objects.own_objects import measured_map
 from grasptypes.objects.reference_meshes import reference_meshes
 from grasptypes.objects.variants import all_objects, all_variants, base_of
 from grasptypes.predictors.weights import DOWNLOAD_SHA256_START, WEIGHTS_VARIABLE, chosen_weights
+from grasptypes.settings.roles import ROLES
+from grasptypes.settings.tasks import TASKS as TASKS_FILE
 from grasptypes.start_up import check_start
 from grasptypes.content_hash import CodeHash, FileHash
 
 PUBLISHED_COUNTS = "assets/published_labels.csv"
 CATALOGUE = f"{workflow.basedir}/src/grasptypes/objects/catalogue.yaml"
+# How people hold parts by role, size and task.
+KNOWLEDGE = [str(path) for path in (ROLES, TASKS_FILE, HOLDS)]
 
 try:
     PARAMS = Params.check(config)
-    HOLDS = check_start(PARAMS, workflow.basedir, os.environ)
+    check_start(PARAMS, workflow.basedir, os.environ)
     PUBLISHED_CSV = published_path(os.environ) or []
     REFERENCE_MESHES = [str(path) for path in reference_meshes(os.environ)]
     OBJECTS, VARIANTS = all_objects(PARAMS.objects), all_variants(PARAMS.objects)
     TASKS = list(config["tasks"])
+    FITTED_ON = [name for name in config["grasp_types"]["fitted_on"] if name in OBJECTS]
     KNOWN = label_sources(config["labels"], PUBLISHED_COUNTS, OBJECTS, TASKS)
     for name in (config["hand"], config["published"]["hand"]):
         hand_folder(name)
@@ -105,8 +111,10 @@ def varied_objects(labels):
 
 
 def view_count(wildcards):
-    """How many images are taken of an object; variants have fewer of them."""
+    """How many images are taken of an object; variants and shapes of kinds have fewer of them."""
     variant = wildcards.object in VARIANTS
+    if wildcards.object not in OBJECTS:
+        return PARAMS.kinds.views
     return PARAMS.objects.variant_views if variant else PARAMS.renders.views
 
 

@@ -76,6 +76,33 @@ rule compare_distribution:
         "../scripts/compare_distribution.py"
 
 
+# Not part of any other target: its numbers are in src/grasptypes/settings/holds.yaml.
+rule fit_holds:
+    input:
+        surfaces=expand(rules.prepare_object.output.surface, object=KNOWN["published"].objects),
+        properties=expand(
+            rules.prepare_object.output.properties, object=KNOWN["published"].objects
+        ),
+        published=PUBLISHED_COUNTS,
+    output:
+        similarity="reports/hold_similarity.csv",
+        parameters="reports/hold_parameters.csv",
+    params:
+        tasks=KNOWN["published"].tasks,
+        fitted_on=FITTED_ON,
+        settings=settings("hold_fit"),
+        contact_maps=settings("contact_maps"),
+        grasp_types=settings("grasp_types"),
+        knowledge=hashes(KNOWLEDGE),
+        published=hashes("assets/published_labels.csv"),
+        seed=config["seed"],
+        code=script_hash("fit_holds"),
+    message:
+        "Fitting the table of holds to published labels"
+    script:
+        "../scripts/fit_holds.py"
+
+
 rule plot_label_tree:
     input:
         dataset=rules.label_grasps.output.grasps,

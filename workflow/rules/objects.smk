@@ -51,7 +51,7 @@ rule map_contacts:
         contact_map="data/contact_maps/{object}/{task}.npz",
     params:
         settings=settings("contact_maps"),
-        rows=lambda wildcards: HOLDS.get((base_of(wildcards.object), wildcards.task), ()),
+        knowledge=hashes(KNOWLEDGE),
         unit=lambda wildcards: map_unit(wildcards.object),
         measured=lambda wildcards: hashes(measured_input(wildcards)),
         seed=config["seed"],

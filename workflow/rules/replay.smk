@@ -37,24 +37,24 @@ rule replay_grasps:
         "../scripts/replay_grasps.py"
 
 
-# Not part of any other target: its findings are already in assets/affinities.csv.
-rule derive_affinities:
+# Not part of any other target: its findings are in src/grasptypes/settings/tasks.yaml. Only objects on whose
+# labels anything is fitted.
+rule measure_touched_roles:
     input:
-        surfaces=expand(rules.prepare_object.output.surface, object=OBJECTS),
+        surfaces=expand(rules.prepare_object.output.surface, object=FITTED_ON),
+        properties=expand(rules.prepare_object.output.properties, object=FITTED_ON),
         published=PUBLISHED_CSV,
         references=REFERENCE_MESHES,
     output:
-        evidence="reports/contact_evidence/grasps.csv",
-        summary="reports/contact_evidence/summary.csv",
-        pattern="reports/contact_evidence/pattern.csv",
+        table="reports/touched_roles.csv",
     params:
         hand=hand_parameter(config["published"]["hand"]),
-        objects=OBJECTS,
+        objects=FITTED_ON,
         scale=config["replay"]["object_scale"],
         data=lambda wildcards: measuring_hashes(),
-        settings=config["contact_evidence"],
-        code=script_hash("derive_affinities"),
+        settings=config["hold_fit"]["touch"],
+        code=script_hash("measure_touched_roles"),
     message:
-        "Deriving where hands touch from the published poses"
+        "Measuring which roles the published grasps touch"
     script:
-        "../scripts/derive_affinities.py"
+        "../scripts/measure_touched_roles.py"

@@ -10,10 +10,10 @@ import torch
 
 from grasptypes.files import write_npz
 from grasptypes.jobs import job
+from grasptypes.kinds.variation import build_variant
 from grasptypes.objects.parts import ImportedModel
 from grasptypes.objects.preparation import visual_glb
 from grasptypes.objects.variants import variant_names
-from grasptypes.objects.variation import build_variant
 from grasptypes.predictors.backbone import load_backbone
 from grasptypes.predictors.features import encodings, extract
 from grasptypes.predictors.weights import BackboneRecord

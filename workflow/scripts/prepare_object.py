@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from grasptypes.jobs import job
-from grasptypes.objects.catalogue import build
+from grasptypes.kinds.catalogue import build
 from grasptypes.objects.mesh_import import import_model
 from grasptypes.objects.parts import ImportedModel
 from grasptypes.objects.preparation import prepare

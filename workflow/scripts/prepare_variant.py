@@ -3,9 +3,9 @@
 from pathlib import Path
 
 from grasptypes.jobs import job
+from grasptypes.kinds.variation import build_variant
 from grasptypes.objects.parts import ImportedModel
 from grasptypes.objects.preparation import prepare
-from grasptypes.objects.variation import build_variant
 from grasptypes.settings.objects import Resolution, VariationRanges
 
 if __name__ == "__main__":

@@ -1,7 +1,7 @@
 """Contact maps: where people touch an object for a task, as a population and individually.
 
 The paper takes them from ContactDB's thermal recordings, which are no longer available. Here a
-virtual person chooses a hold from the affinity table and places a hand of their own size on the
+virtual person chooses a hold (see `holds`) and places a hand of their own size on the
 object; the population's map is the mean over as many people as ContactDB recorded.
 """
 
@@ -14,9 +14,15 @@ import numpy as np
 import trimesh
 from numpy.typing import ArrayLike, NDArray
 
-from grasptypes.contact_maps.affinities import STYLE_OF_GRIP, WHOLE, AffinityRow
 from grasptypes.contact_maps.handprint import handprint
-from grasptypes.contact_maps.placement import HeldSurface, HumanHand, Placement, place_hand
+from grasptypes.contact_maps.hold import STYLE_OF_GRIP, Hold
+from grasptypes.contact_maps.placement import (
+    HeldSurface,
+    HumanHand,
+    Placement,
+    SurfacePoints,
+    place_hand,
+)
 from grasptypes.errors import InputError
 from grasptypes.objects.object_files import Surface
 from grasptypes.objects.object_geometry import ObjectGeometry
@@ -42,7 +48,7 @@ class ContactMap:
         probability: (N,) float32, share of people who touch the point; 0 if unknown.
         sessions: (S, N) float32, contact of one person each, 0 to 1.
         style: (S,) str, power or precision.
-        grip: (S,) str, a grip of the affinity table.
+        grip: (S,) str, a grip of `hold.STYLE_OF_GRIP`.
         part: (S,) str, the held parts, joined by `+`.
         approach: (S, 3) float32, unit direction in which the palm moves onto the object.
         closing: (S, 3) float32, unit direction from the thumb to the fingers.
@@ -73,19 +79,10 @@ class ContactMap:
 
 
 @dataclass(frozen=True)
-class Points:
-    """Points (N, 3) m on an object's surface, their normals (N, 3) and part indices (N,)."""
-
-    points_m: NDArray[np.float64]
-    normals: NDArray[np.float64]
-    part_index: NDArray[np.int16]
-
-
-@dataclass(frozen=True)
 class Session:
-    """One person's way of holding: the row, the placed hand, its size, and its contact (N,)."""
+    """One person's way of holding: the placed hand, its size, and its contact (N,)."""
 
-    row: AffinityRow
+    hold: Hold
     placement: Placement
     height: float
     hand: HumanHand
@@ -104,7 +101,7 @@ class MapTask:
         scale: scale of the object and of the hands, as in ContactGrasp's contact maps.
     """
 
-    points: Points
+    points: SurfacePoints
     part_names: Sequence[str]
     name: tuple[str, str]
     seed: int
@@ -129,6 +126,17 @@ class MapTask:
         """Key of a session's random draws, which depend on nothing else but the settings."""
         return (*self.name, session, self.seed)
 
+    def surface(self, parts: Sequence[str]) -> HeldSurface:
+        """The object's surface with some parts marked; all of it if none are named."""
+        points = self.points
+        wanted = [self.part_names.index(part) for part in parts or self.part_names]
+        return HeldSurface(points.points_m, points.normals, np.isin(points.part_index, wanted))
+
+    def typical_hand(self) -> HumanHand:
+        """The hand of mean length."""
+        lengths_m = [group.hand_length_m for group in self.settings.people]
+        return HumanHand.of_length(self.scale * float(np.mean(lengths_m)), self.settings.hand)
+
     def draw_hand(self, draw: np.random.Generator) -> HumanHand:
         """A person's hand."""
         people = self.settings.people
@@ -139,7 +147,7 @@ class MapTask:
     def try_hold(
         self,
         held: HeldSurface,
-        row: AffinityRow,
+        hold: Hold,
         hand: HumanHand,
         draw: np.random.Generator,
         reached: HeldSurface | None = None,
@@ -150,57 +158,59 @@ class MapTask:
             held: where the hand is put.
             reached: where it may touch; default: the same.
         """
-        placement, height = place_hand(held, row, hand, self.settings.placement, draw)
-        contact = handprint(reached or held, row.grip, placement, hand)
+        placement, height = place_hand(held, hold, hand, self.settings.placement, draw)
+        contact = handprint(reached or held, hold.grip, placement, hand)
         facing = self.points.normals[contact >= self.settings.threshold] @ placement.closing
         if not ((facing > OPPOSED_COSINE).any() and (facing < -OPPOSED_COSINE).any()):
             return None
-        return Session(row, placement, height, hand, contact)
+        return Session(hold, placement, height, hand, contact)
 
 
-def sample_surface(mesh: Surface, count: int, seed_number: int) -> Points:
+def sample_surface(mesh: Surface, count: int, seed_number: int) -> SurfacePoints:
     """At most `count` evenly spread points; a face has the part of its first vertex."""
     shape = trimesh.Trimesh(mesh.vertices, mesh.faces, process=False)
     points_m, face = trimesh.sample.sample_surface_even(shape, count, seed=seed_number % 2**31)
     parts = np.asarray(mesh.part_index)[np.asarray(mesh.faces)[face, 0]]
-    return Points(np.asarray(points_m), shape.face_normals[face], parts.astype(np.int16))
+    return SurfacePoints(np.asarray(points_m), shape.face_normals[face], parts.astype(np.int16))
 
 
-def draw_session(task: MapTask, rows: Sequence[AffinityRow], number: int) -> Session:
-    """One person's way of holding an object, as one of the rows of the affinity table says.
+def draw_session(task: MapTask, holds: Sequence[Hold], number: int) -> Session:
+    """One person's way of holding an object: one of the holds, by their probability.
 
-    If thumb and fingers do not end up on opposing sides of the object, the person tries again.
+    If thumb and fingers do not end up on opposing sides of the object, the person tries again, and
+    then chooses one of the other holds.
 
     Raises:
-        InputError: the object cannot be held as the drawn row says.
+        InputError: the object cannot be held in any of these ways.
     """
-    points, settings, key = task.points, task.settings, task.key(number)
+    key = task.key(number)
     draw = rng("contact_map", *key)
-    row = _choose(rows, key)
-    mask = np.isin(points.part_index, [task.part_names.index(part) for part in row.parts])
-    if not row.parts:
-        mask[:] = True
-    surface = HeldSurface(points.points_m, points.normals, mask)
     hand = task.draw_hand(draw)
-    for _ in range(settings.tries):
-        if session := task.try_hold(surface, row, hand, draw):
-            return session
-    raise InputError(
-        settings.affinities,
-        f"{key[0]}, {key[1]}, {'+'.join(row.parts) or WHOLE}, {row.grip} {row.approach}",
-        f"{settings.tries} people could not hold it this way: thumb and fingers found no opposing "
-        "sides",
-    )
+    chosen, left = _choose(holds, key), list(holds)
+    while True:
+        held, reached = task.surface(chosen.parts), task.surface(chosen.touchable)
+        for _ in range(task.settings.tries):
+            if session := task.try_hold(held, chosen, hand, draw, reached):
+                return session
+        left.remove(chosen)
+        if not left:
+            ways = ", ".join(f"{hold.grip} {hold.part}" for hold in holds)
+            said = f"nobody can hold it: in {task.settings.tries} placements of each hold thumb "
+            raise InputError(
+                " and ".join(task.name), "", f"{said}and fingers found no opposing sides ({ways})"
+            )
+        shares = np.cumsum([hold.probability for hold in left])
+        chosen = left[int(np.searchsorted(shares, draw.uniform(0.0, shares[-1]), side="right"))]
 
 
-def map_contacts(task: MapTask, rows: Sequence[AffinityRow]) -> ContactMap:
+def map_contacts(task: MapTask, holds: Sequence[Hold]) -> ContactMap:
     """The population's map of an object and task, and the maps of its first people (the sessions).
 
     Args:
-        rows: of the affinity table, for this object and task.
+        holds: of this object and task, see `holds.find_holds`.
     """
     count = max(task.settings.sessions, task.settings.population)
-    people = [draw_session(task, rows, number) for number in range(1, count + 1)]
+    people = [draw_session(task, holds, number) for number in range(1, count + 1)]
     probability = np.mean([person.contact for person in people], axis=0)
     return of_sessions(task, probability, people[: task.settings.sessions])
 
@@ -209,7 +219,7 @@ def of_sessions(
     task: MapTask, probability: NDArray[np.float64], shown: Sequence[Session]
 ) -> ContactMap:
     """Contact map from a population's probability (N,) and the sessions drawn for it."""
-    points, grips = task.points, [person.row.grip for person in shown]
+    points, grips = task.points, [person.hold.grip for person in shown]
     return ContactMap(
         points=points.points_m.astype(np.float32),
         normals=points.normals.astype(np.float32),
@@ -219,7 +229,7 @@ def of_sessions(
         sessions=_single([person.contact for person in shown]),
         style=np.array([STYLE_OF_GRIP[grip] for grip in grips]),
         grip=np.array(grips),
-        part=np.array(["+".join(person.row.parts) or WHOLE for person in shown]),
+        part=np.array([person.hold.part for person in shown]),
         approach=_single([-person.placement.palm_side for person in shown]),
         closing=_single([person.placement.closing for person in shown]),
         centre_m=_single([person.placement.centre_m for person in shown]),
@@ -232,14 +242,14 @@ def _single(values: ArrayLike) -> NDArray[np.float32]:
     return np.asarray(values, dtype=np.float32)
 
 
-def _choose(rows: Sequence[AffinityRow], key: tuple[str, str, int, int]) -> AffinityRow:
-    """Choose a row so that over the sessions each occurs in proportion to its affinity.
+def _choose(holds: Sequence[Hold], key: tuple[str, str, int, int]) -> Hold:
+    """Choose a hold so that over the sessions each occurs in proportion to its probability.
 
-    With steps of the golden ratio, 20 sessions match the table's shares better than 20 independent
+    With steps of the golden ratio, 20 sessions match the probabilities better than 20 independent
     draws, and session 7 stays the same if there are 30.
     """
     object_name, task, session, seed_number = key
     start = seed("holds", object_name, task, seed_number) / 2**63
     quantile = (start + session * GOLDEN_RATIO) % 1.0
-    shares = np.cumsum([row.affinity for row in rows])
-    return rows[int(np.searchsorted(shares, quantile * shares[-1], side="right"))]
+    shares = np.cumsum([hold.probability for hold in holds])
+    return holds[int(np.searchsorted(shares, quantile * shares[-1], side="right"))]

@@ -14,8 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
-from grasptypes.contact_maps.affinities import APPROACHES, AXES, STYLE_OF_GRIP, AffinityRow
 from grasptypes.contact_maps.contact_map import ContactMap, MapTask, Session, of_sessions
+from grasptypes.contact_maps.hold import STYLE_OF_GRIP, Hold
 from grasptypes.contact_maps.placement import HeldSurface
 from grasptypes.errors import InputError
 from grasptypes.objects.contact_scan import ContactScan, read_contact_scan
@@ -24,6 +24,7 @@ from grasptypes.settings.contact_maps import MeasuredMapSettings
 
 Array = NDArray[np.float64]
 GRIPS = tuple(STYLE_OF_GRIP)
+SIDES = np.array([sign * axis for axis in np.eye(3) for sign in (1.0, -1.0)])
 # Fewer warm points do not define a longest extent.
 MIN_WARM_POINTS = 3
 
@@ -106,7 +107,7 @@ def draw_measured_session(
 
     Args:
         probability: (N,) touch probability.
-        grips: grips of the affinity table to choose from.
+        grips: grips to choose from.
 
     Returns:
         None if thumb and fingers find no opposing sides in any placement.
@@ -121,8 +122,8 @@ def draw_measured_session(
     reached = HeldSurface(points.points_m, points.normals, margin_m <= 2 * hand.pad_radius_m)
     sessions, weights = [], []
     for _ in range(settings.measured.placements):
-        row = _any_row(draw, grips)
-        if session := task.try_hold(held, row, hand, draw, reached):
+        hold = _any_hold(draw, grips)
+        if session := task.try_hold(held, hold, hand, draw, reached):
             sessions.append(session)
             agreement = _agreement(session.contact, probability)
             weights.append(agreement**settings.measured.sharpness)
@@ -132,10 +133,21 @@ def draw_measured_session(
     return sessions[int(np.searchsorted(shares, draw.uniform(0.0, shares[-1]), side="right"))]
 
 
-def _any_row(draw: np.random.Generator, grips: Sequence[str]) -> AffinityRow:
-    """A random grip from a random side, like a row of the affinity table for the whole object."""
-    grip, approach, axis = (str(draw.choice(choices)) for choices in (grips, APPROACHES, AXES))
-    return AffinityRow((), grip, approach, axis, 0.0, 1.0, 1.0, "measured")
+def _any_hold(draw: np.random.Generator, grips: Sequence[str]) -> Hold:
+    """A random grip on the whole object, from a random side of a random axis."""
+    grip = str(draw.choice(grips))
+    # Any side of the axis is one more choice, and so is the longest extent as the axis.
+    side, axis = int(draw.integers(-1, len(SIDES))), int(draw.integers(-1, 3))
+    return Hold(
+        parts=(),
+        touchable=(),
+        grip=grip,
+        sides=None if side < 0 else SIDES[side][None],
+        axis=None if axis < 0 else np.eye(3)[axis],
+        low=0.0,
+        high=1.0,
+        probability=1.0,
+    )
 
 
 def _agreement(contact: Array, probability: Array) -> float:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from grasptypes.contact_maps.affinities import AffinityRow
+from grasptypes.contact_maps.hold import Hold
 from grasptypes.settings.contact_maps import HandProportions, PlacementSettings
 
 Array = NDArray[np.float64]
@@ -72,6 +72,15 @@ class Placement:
 
 
 @dataclass(frozen=True)
+class SurfacePoints:
+    """Points (N, 3) m on an object's surface, their normals (N, 3) and part indices (N,)."""
+
+    points_m: Array
+    normals: Array
+    part_index: NDArray[np.int16]
+
+
+@dataclass(frozen=True)
 class HeldSurface:
     """Points (N, 3) in metres, outward unit normals (N, 3) and which points the hand may touch."""
 
@@ -82,7 +91,7 @@ class HeldSurface:
 
 def place_hand(
     surface: HeldSurface,
-    hold: AffinityRow,
+    hold: Hold,
     hand: HumanHand,
     settings: PlacementSettings,
     draw: np.random.Generator,
@@ -96,7 +105,7 @@ def place_hand(
         The placement and the height (0 to 1) of its centre along the held parts.
     """
     held = surface.points_m[surface.mask]
-    long_axis = _axis(hold.axis, held)
+    long_axis = _longest_axis(held) if hold.axis is None else hold.axis
     height = float(draw.uniform(hold.low, hold.high))
     centre_m = _centre(held, long_axis, height, settings.slice_m)
     palm_side = _palm_side(hold, long_axis, settings.tilt_sd_rad, draw)
@@ -117,10 +126,8 @@ def place_hand(
     return Placement(centre_m, palm_side, axis, closing, fingers), height
 
 
-def _axis(name: str, held: Array) -> Array:
-    """The named axis of the object, or the direction in which the held points extend most."""
-    if name:
-        return np.asarray(np.eye(3)["xyz".index(name)])
+def _longest_axis(held: Array) -> Array:
+    """The direction (3,) in which the held points (N, 3) extend most."""
     axis = np.linalg.svd(held - held.mean(axis=0), full_matrices=False)[2][0]
     return np.asarray(axis * np.sign(axis[np.argmax(np.abs(axis))]))
 
@@ -136,16 +143,13 @@ def _centre(held: Array, axis: Array, height: float, slice_m: float) -> Array:
     return np.asarray((aside.min(axis=0) + aside.max(axis=0)) / 2 + at * axis)
 
 
-def _palm_side(
-    hold: AffinityRow, long_axis: Array, tilt_sd: float, draw: np.random.Generator
-) -> Array:
-    if hold.approach == "around":
+def _palm_side(hold: Hold, long_axis: Array, tilt_sd: float, draw: np.random.Generator) -> Array:
+    if hold.sides is None:
         side = draw.normal(size=3)
         side -= (side @ long_axis) * long_axis
         side /= np.linalg.norm(side)
     else:
-        side = np.zeros(3)
-        side["xyz".index(hold.approach[1])] = 1.0 if hold.approach[0] == "+" else -1.0
+        side = hold.sides[draw.integers(len(hold.sides))]
     tilted = side + draw.normal(0.0, tilt_sd, 3)
     if hold.grip in ("wrap", "pinch"):
         # Fingers side by side along the axis close around it, so the palm is beside it.

@@ -8,7 +8,7 @@ from pydantic import Field, model_validator
 
 from grasptypes.settings.base import Many, MisplacedError, Pair, Settings, Triple, Unique, setting
 
-# The grips of the affinity table.
+# How people hold parts: the grips of the table of holds.
 GRIPS = ("wrap", "enclose", "tripod", "pinch", "rim")
 Number = Annotated[float, Field(ge=-10, le=10)]
 Bound = Annotated[float, Field(ge=-1, le=1)]
@@ -132,7 +132,7 @@ class ShapeRanges(Settings):
 
 
 class Grip(Settings):
-    """How a hand performs a grip of the affinity table."""
+    """How a hand performs a grip of the table of holds."""
 
     preshapes: Many[Many[Number]] = setting(
         "preshapes to choose from: a number for each degree of freedom", min_length=1
@@ -144,7 +144,7 @@ class Grip(Settings):
 
 
 class Grips(Settings):
-    """How a hand performs the grips of the affinity table."""
+    """How a hand performs the grips of the table of holds."""
 
     start_m: float = setting(
         "distance in front of the object at which open hands start", ge=0.1, le=2

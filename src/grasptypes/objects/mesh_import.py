@@ -45,9 +45,15 @@ def import_model(own: OwnObject, limits: ImportLimits) -> ImportedModel:
         found, cavities = assembled(bodies, repairs)
     else:
         found = {BODY: _rebuild(path, tidied(concatenated(pieces), []), limits, repairs)}
+    for name in own.parts:
+        if name not in found:
+            message = f"has no part '{name}'; its parts: {', '.join(found)}"
+            raise InputError(path, "", message)
     colours = joined([piece.triangles for piece in pieces], face_colours, limits.colour_cells)
-    material = colours.material()
-    parts = tuple(Part(name, solid, material or GREY) for name, solid in found.items())
+    material = colours.material() or GREY
+    parts = tuple(
+        Part(name, solid, material, role=own.parts.get(name)) for name, solid in found.items()
+    )
     check_volume(path, sum(part.solid.volume() for part in parts), pieces, limits)
     if cavities is not None and own.shell_thickness_m is not None:
         message = (

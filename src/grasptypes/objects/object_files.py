@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from dataclasses import asdict, dataclass, fields
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -44,6 +45,8 @@ class Properties:
         volume_m3: inside the outer surface.
         bounds_m: lowest and highest corner.
         repairs: descriptions of repairs to a user's mesh; empty for the catalogue's objects.
+        roles: role and attributes of each part that has a role, by the part's name, as the fields
+            of `PartRole`.
     """
 
     object: str
@@ -57,6 +60,7 @@ class Properties:
     watertight: bool
     bounds_m: list[list[float]]
     repairs: list[str]
+    roles: dict[str, dict[str, Any]]
 
 
 def write_surface(path: str | Path, surface: Surface) -> None:

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Mapping
 from pathlib import Path
 
 from grasptypes.errors import InputError
+from grasptypes.objects.part_roles import part_roles
 from grasptypes.settings.objects import ObjectSettings
+from grasptypes.settings.tasks import Task
 
 
 def check_own_objects(objects: ObjectSettings, path: str | Path = "params.yaml") -> None:
@@ -28,23 +30,38 @@ def measured_map(objects: ObjectSettings, name: str, task: str) -> str | None:
 
 
 def check_every_hold(
-    objects: ObjectSettings,
-    tasks: Collection[str],
-    holds: Collection[tuple[str, str]],
-    table: str | Path,
+    objects: ObjectSettings, tasks: Mapping[str, Task], path: str | Path = "params.yaml"
 ) -> None:
     """Check that every object has a way to be held for every task.
 
     Args:
-        holds: the rows of the affinity table by object and task.
-        table: path of the affinity table.
+        tasks: the tasks of the run.
+        path: of the parameters, for errors.
 
     Raises:
-        InputError: names the first object and task with neither rows nor a measured map.
+        InputError: names the first object and task with neither a measured map nor a part with a
+            role that the task touches.
     """
-    for name in [*objects.names, *objects.own]:
-        for task in tasks:
-            if (name, task) in holds or measured_map(objects, name, task):
+    for name in objects.names:
+        for task, described in tasks.items():
+            if not _touched(described) & {part.role for part in part_roles(name).values()}:
+                roles = ", ".join(described.touched)
+                message = f"{name} has no part that people touch for it (roles: {roles})"
+                raise InputError(path, f"tasks.{task}", message)
+    for name, own in objects.own.items():
+        for task, described in tasks.items():
+            known = {part.role for part in own.parts.values()}
+            if task in own.contact_maps or _touched(described) & known:
                 continue
-            own = f" or set objects.own.{name}.contact_maps.{task}" if name in objects.own else ""
-            raise InputError(table, f"{name} and {task}", f"has no row; add at least one{own}")
+            raise InputError(
+                path,
+                f"objects.own.{name}",
+                f"has no way to be held for {task}: give a part a role that {task} touches "
+                f"(parts: {{body: {{role: {next(iter(described.touched))}}}}}), or set "
+                f"contact_maps.{task}",
+            )
+
+
+def _touched(task: Task) -> set[str]:
+    """Roles that people touch for a task."""
+    return {role for role, weight in task.touched.items() if weight > 0}

@@ -3,21 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from types import SimpleNamespace
 from typing import TYPE_CHECKING
 
 from manifold3d import Manifold
 
+from grasptypes.settings.roles import PartRole
+
 if TYPE_CHECKING:
     from grasptypes.objects.surface_colours import SurfaceColours
-
-
-class Size(SimpleNamespace):
-    """Dimensions of a catalogue object: the numbers, and rows of them, in `catalogue.yaml`."""
-
-
-Solids = dict[str, Manifold]
-"""The solids of an object's parts by name, the first of which owns what it shares with others."""
 
 
 @dataclass(frozen=True)
@@ -40,13 +33,15 @@ class Part:
     """A named solid (metres, object frame at scale 1) of one material.
 
     Parts may overlap: the object is their union, and each part owns its visible surface.
-    `density_kg_m3` is set if the part's material is heavier or lighter than the object's.
+    `density_kg_m3` is set if the part's material is heavier or lighter than the object's, `role` if
+    it is known what the part is for.
     """
 
     name: str
     solid: Manifold
     material: Material
     density_kg_m3: float | None = None
+    role: PartRole | None = None
 
 
 @dataclass(frozen=True)

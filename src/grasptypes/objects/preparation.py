@@ -110,6 +110,7 @@ def physical_properties(name: str, imported: ImportedModel) -> Properties:
         watertight=True,
         bounds_m=[vertices.min(axis=0).tolist(), vertices.max(axis=0).tolist()],
         repairs=list(imported.repairs),
+        roles={part.name: part.role.model_dump(mode="json") for part in parts if part.role},
     )
 
 

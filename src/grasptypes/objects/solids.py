@@ -1,4 +1,4 @@
-"""Watertight solids (metres) from revolved, extruded, swept and lofted sections, on manifold3d."""
+"""Watertight solids (metres) from extruded, swept and lofted sections, on manifold3d."""
 
 from collections.abc import Sequence
 
@@ -6,19 +6,7 @@ import numpy as np
 from manifold3d import CrossSection, FillRule, Manifold, Mesh64, triangulate
 from numpy.typing import ArrayLike, NDArray
 
-from grasptypes.objects import sections
-
 Array = NDArray[np.float64]
-
-# Rotations in degrees (about x, then y) that carry +z onto the named axis.
-_FROM_Z = {
-    "x": (0.0, 90.0, 0.0),
-    "-x": (0.0, -90.0, 0.0),
-    "y": (-90.0, 0.0, 0.0),
-    "-y": (90.0, 0.0, 0.0),
-    "z": (0.0, 0.0, 0.0),
-    "-z": (180.0, 0.0, 0.0),
-}
 
 
 def from_mesh(vertices: ArrayLike, faces: ArrayLike) -> Manifold:
@@ -51,30 +39,12 @@ def to_mesh(solid: Manifold) -> tuple[Array, NDArray[np.int32]]:
     )
 
 
-def revolve(profile: ArrayLike, axis: str = "z", segments: int = 96) -> Manifold:
-    """Revolve a closed (N, 2) polygon of (radius, height) about an axis through the origin."""
-    polygon = np.asarray(profile, dtype=np.float64)
-    return along(CrossSection([polygon], FillRule.NonZero).revolve(segments), axis)
-
-
-def extrude(
-    polygon: ArrayLike,
-    height_m: float,
-    axis: str = "z",
-    centred: bool = True,
-    holes: Sequence[ArrayLike] = (),
-) -> Manifold:
-    """Extrude a (N, 2) polygon along an axis, minus the polygons in `holes`.
-
-    Along z the polygon's axes are x and y; see `along` for the others.
-    """
+def extrude(polygon: ArrayLike, height_m: float, holes: Sequence[ArrayLike] = ()) -> Manifold:
+    """Extrude a (N, 2) polygon from z = 0, minus the polygons in `holes`."""
     section = CrossSection([np.asarray(polygon, dtype=np.float64)], FillRule.NonZero)
     for hole in holes:
         section -= CrossSection([np.asarray(hole, dtype=np.float64)], FillRule.NonZero)
-    solid = section.extrude(height_m)
-    if centred:
-        solid = solid.translate((0.0, 0.0, -height_m / 2))
-    return along(solid, axis)
+    return section.extrude(height_m)
 
 
 def loft(rings: Sequence[ArrayLike] | Array) -> Manifold:
@@ -99,7 +69,7 @@ def sweep(
     """Carry a section along a path.
 
     Args:
-        path: (K, 3) points in metres; smooth it first with `sections.smooth_curve`.
+        path: (K, 3) points in metres; smooth it first.
         section: (N, 2) polygon, or K of them with equal N; the second axis points to `up`.
         scales: (K,) or (K, 2) factors on the section along the path.
         up: direction the section's second axis stays closest to; not along the path.
@@ -133,57 +103,9 @@ def ellipsoid(half_axes_m: Sequence[float], segments: int = 64) -> Manifold:
     return Manifold.sphere(1.0, segments).scale(tuple(half_axes_m))
 
 
-def sphere(radius_m: float, segments: int = 64) -> Manifold:
-    """Make a sphere centred on the origin."""
-    return Manifold.sphere(radius_m, segments)
-
-
-def cylinder(
-    radius_m: float,
-    height_m: float,
-    axis: str = "z",
-    top_radius_m: float | None = None,
-    segments: int = 64,
-) -> Manifold:
-    """Make a cylinder or cone centred on the origin."""
-    top = radius_m if top_radius_m is None else top_radius_m
-    return along(Manifold.cylinder(height_m, radius_m, top, segments, True), axis)
-
-
-def torus(ring_radius_m: float, tube_radius_m: float) -> Manifold:
-    """Make a torus around z, centred on the origin."""
-    return revolve(sections.circle(tube_radius_m, 32) + [ring_radius_m, 0.0])
-
-
 def union(*solids: Manifold) -> Manifold:
     """Join solids."""
     return sum(solids[1:], start=solids[0])
-
-
-def difference(solid: Manifold, *cutters: Manifold) -> Manifold:
-    """Subtract all cutters from a solid."""
-    return solid - union(*cutters)
-
-
-def slabs(solid: Manifold, cuts_m: Sequence[float], axis: str = "z") -> list[Manifold]:
-    """Cut a solid at increasing positions along x, y or z; returns the slices from low to high.
-
-    Do not tilt the slices: only cuts at exactly the same height vanish in their union.
-    """
-    normal = tuple(float(name == axis) for name in "xyz")
-    slices = []
-    for cut in cuts_m:
-        solid, below = solid.split_by_plane(normal, cut)
-        slices.append(below)
-    return [*slices, solid]
-
-
-def along(solid: Manifold, axis: str) -> Manifold:
-    """Turn a solid built along +z onto an axis: x, y, z or -x, -y, -z.
-
-    x maps (x, y, z) to (z, y, -x); y maps it to (x, z, -y).
-    """
-    return solid.rotate(_FROM_Z[axis])
 
 
 def _skin(count: int, size: int) -> NDArray[np.int64]:

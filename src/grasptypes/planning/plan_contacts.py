@@ -10,8 +10,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from grasptypes.contact_maps.contact_evidence import GRIP_OF_TYPE
 from grasptypes.contact_maps.contact_map import ContactMap, MapTask, Session, of_sessions
+from grasptypes.contact_maps.hold import GRIP_OF_TYPE
 from grasptypes.contact_maps.measured_contacts import draw_measured_session, read_probability
 from grasptypes.errors import InputError
 from grasptypes.hands.hand import Hand
@@ -56,9 +56,8 @@ def plan_contacts(
     A session whose hand finds no place to hold is left out; the other sessions are not affected.
 
     Args:
-        measured: without it all places are equally likely, as in rows of the affinity table with
-            part `*`.
-        grips: grips of the affinity table.
+        measured: without it all places are equally likely.
+        grips: grips to use.
         source: the user's mesh or the object's name, for errors.
 
     Raises:

@@ -1,4 +1,4 @@
-"""Sections `contact_maps` and `contact_evidence`: how people hold and touch the objects."""
+"""Section `contact_maps`: how people hold and touch the objects."""
 
 from __future__ import annotations
 
@@ -61,7 +61,6 @@ class MeasuredMapSettings(Settings):
 class ContactMapSettings(Settings):
     """How contact maps are drawn."""
 
-    affinities: str = setting("path of the affinity table, a CSV", min_length=1)
     sessions: int = setting("ways of holding per object and task", ge=1, le=1000)
     population: int = setting("virtual people whose mean is the population's map", ge=1, le=10000)
     points: int = setting("number of surface points of a map", ge=100, le=100000)
@@ -71,12 +70,3 @@ class ContactMapSettings(Settings):
     hand: HandProportions
     placement: PlacementSettings
     measured: MeasuredMapSettings
-
-
-class ContactEvidenceSettings(Settings):
-    """How the published poses are measured as evidence for the affinity table."""
-
-    hand_spacing_m: float = setting(
-        "distance between neighbouring points on the hand", ge=0.001, le=0.05
-    )
-    touch_m: float = setting("surfaces closer than this touch", gt=0, le=0.05)

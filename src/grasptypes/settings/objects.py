@@ -8,6 +8,7 @@ from typing import Annotated, Literal, Self
 from pydantic import AfterValidator, Field, model_validator
 
 from grasptypes.settings.base import MisplacedError, Name, Pair, Settings, Share, Unique, setting
+from grasptypes.settings.roles import PartRole
 
 CATALOGUE = (
     "apple", "banana", "bowl", "cell_phone", "cup", "flashlight", "hammer", "knife", "light_bulb",
@@ -62,6 +63,9 @@ class OwnObject(Settings):
     mass_kg: float | None = setting("mass of the object", default=None, gt=0)
     shell_thickness_m: float | None = setting(
         "wall thickness of a hollow object whose mesh is the outside", default=None, gt=0
+    )
+    parts: dict[str, PartRole] = setting(
+        "role of each named part; a mesh without named parts is one part, body", default={}
     )
     contact_maps: dict[str, str] = setting(
         "PLY contact map for each task (red channel, 0 is unseen)", default={}

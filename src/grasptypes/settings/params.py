@@ -10,8 +10,10 @@ from pydantic import AfterValidator, model_validator
 from grasptypes.errors import InputError
 from grasptypes.settings.base import MisplacedError, Name, Settings, Unique, setting
 from grasptypes.settings.commands import PlanSettings, PredictSettings, TrackingSettings
-from grasptypes.settings.contact_maps import ContactEvidenceSettings, ContactMapSettings
+from grasptypes.settings.contact_maps import ContactMapSettings
 from grasptypes.settings.grasp_types import GraspTypeSettings, PublishedSettings, ReplaySettings
+from grasptypes.settings.holds import HoldFitSettings
+from grasptypes.settings.kinds import KindSettings
 from grasptypes.settings.objects import ObjectSettings, TaskSettings
 from grasptypes.settings.physics import GraspTestSettings
 from grasptypes.settings.predictors import (
@@ -24,6 +26,7 @@ from grasptypes.settings.predictors import (
 from grasptypes.settings.renders import ContactPictureSettings, GallerySettings, RenderSettings
 from grasptypes.settings.robustness import RobustnessSettings
 from grasptypes.settings.synthesis import SynthesisSettings
+from grasptypes.settings.tasks import TASKS, read_tasks
 from grasptypes.yaml_files import read_yaml
 
 # Name for images and features without a task.
@@ -33,6 +36,8 @@ NO_TASK = "none"
 def _is_a_task(name: str) -> str:
     if name == NO_TASK:
         raise ValueError(f"'{name}' stands for no task: choose another name")
+    if name not in read_tasks():
+        raise ValueError(f"'{name}' is not described in {TASKS.name}: {', '.join(read_tasks())}")
     return name
 
 
@@ -47,11 +52,12 @@ class Params(Settings):
         "a hand that comes with the package, or a folder with a hand of your own", min_length=1
     )
     objects: ObjectSettings
+    kinds: KindSettings
     contact_maps: ContactMapSettings
     published: PublishedSettings
     replay: ReplaySettings
     contact_pictures: ContactPictureSettings
-    contact_evidence: ContactEvidenceSettings
+    hold_fit: HoldFitSettings
     synthesis: SynthesisSettings
     physics: GraspTestSettings
     robustness: RobustnessSettings

@@ -7,13 +7,13 @@ import pytest
 import trimesh
 from tests.unit.settings import PARAMS
 
-from grasptypes.contact_maps.affinities import AffinityRow
 from grasptypes.contact_maps.contact_map import (
     MapTask,
     draw_session,
     map_contacts,
     sample_surface,
 )
+from grasptypes.contact_maps.hold import Hold
 from grasptypes.errors import InputError
 from grasptypes.objects.object_files import Surface
 from grasptypes.settings.contact_maps import HandLengths
@@ -22,7 +22,8 @@ SETTINGS = PARAMS.contact_maps
 SMALL = SETTINGS.changed(sessions=4, population=6)
 RADIUS_M, HEIGHT_M = 0.03, 0.30
 NAMES = ["lower", "upper"]
-WRAP = AffinityRow(("upper",), "wrap", "around", "z", 0.4, 0.6, 1.0, "test")
+UP = np.array([0.0, 0.0, 1.0])
+WRAP = Hold(("upper",), ("upper",), "wrap", None, UP, 0.4, 0.6, 1.0)
 
 
 @pytest.fixture(scope="module")
@@ -38,8 +39,8 @@ def task(points, settings=SETTINGS, seed=0, names=NAMES):
     return MapTask(points, names, ("bottle", "use"), seed, 1.0, settings)
 
 
-def _draw(bottle, row, session=1, settings=SETTINGS):
-    return draw_session(task(bottle, settings), [row], session)
+def _draw(bottle, hold, session=1, settings=SETTINGS):
+    return draw_session(task(bottle, settings), [hold], session)
 
 
 @pytest.mark.parametrize("session", range(1, 6))
@@ -75,8 +76,8 @@ def test_larger_hands_touch_more(bottle):
     assert touched[1] > 1.2 * touched[0]
 
 
-def test_holds_come_up_in_proportion_to_their_affinity(bottle):
-    holds = [replace(WRAP, affinity=7.0), replace(WRAP, grip="pinch", affinity=3.0)]
+def test_holds_come_up_in_proportion_to_their_probability(bottle):
+    holds = [replace(WRAP, probability=0.7), replace(WRAP, grip="pinch", probability=0.3)]
     many = SETTINGS.changed(sessions=20, population=20)
     drawn = map_contacts(task(bottle, many), holds)
     assert 13 <= (drawn.style == "power").sum() <= 15
@@ -92,10 +93,25 @@ def test_a_session_is_the_same_whatever_is_drawn_beside_it(bottle):
     assert len(np.unique(few.sessions, axis=0)) == 4
 
 
-def test_a_hold_that_no_hand_can_do_is_named(bottle):
+def test_an_object_that_nobody_can_hold_is_named(bottle):
     thick = replace(bottle, points_m=bottle.points_m * 10)
-    with pytest.raises(InputError, match=r"bottle, use, upper, pinch around.*no opposing sides"):
+    with pytest.raises(InputError, match=r"bottle and use.*no opposing sides \(pinch upper\)"):
         _draw(thick, replace(WRAP, grip="pinch"))
+
+
+def test_who_cannot_hold_it_one_way_holds_it_another_way(bottle):
+    # Around the lower end, where the hand may touch nothing.
+    impossible = replace(WRAP, parts=("lower",), grip="pinch", low=0.0, high=0.0, probability=0.99)
+    holds = [impossible, replace(WRAP, probability=0.01)]
+    assert {draw_session(task(bottle), holds, n).hold.grip for n in range(1, 5)} == {"wrap"}
+
+
+def test_a_hand_reaches_what_it_may_touch_beside_the_held_part(bottle):
+    low = replace(WRAP, low=0.0, high=0.0)
+    alone, beside = _draw(bottle, low), _draw(bottle, replace(low, touchable=("lower", "upper")))
+    lower = bottle.points_m[:, 2] < -0.005
+    assert alone.contact[lower].max() == 0
+    assert beside.contact[lower].max() > SETTINGS.threshold
 
 
 def test_rim_is_pinched_through_its_wall():
@@ -103,7 +119,7 @@ def test_rim_is_pinched_through_its_wall():
     mesh = trimesh.Trimesh(*trimesh.remesh.subdivide_to_size(mesh.vertices, mesh.faces, 0.02))
     part = np.zeros(len(mesh.vertices), np.int16)
     points = sample_surface(Surface(mesh.vertices, mesh.faces, part, ["wall"]), 6000, 1)
-    hold = AffinityRow((), "rim", "+z", "z", 0.9, 0.9, 1.0, "test")
+    hold = Hold((), (), "rim", UP[None], UP, 0.9, 0.9, 1.0)
     drawn = draw_session(task(points, names=["wall"]), [hold], 1)
     touched = points.points_m[drawn.contact >= SETTINGS.threshold]
     radius = np.hypot(touched[:, 0], touched[:, 1])

@@ -7,15 +7,16 @@ import pytest
 import trimesh
 from tests.unit.settings import PARAMS
 
-from grasptypes.contact_maps.affinities import AffinityRow
 from grasptypes.contact_maps.handprint import handprint
+from grasptypes.contact_maps.hold import Hold
 from grasptypes.contact_maps.placement import HeldSurface, HumanHand, place_hand
 from grasptypes.settings.contact_maps import PlacementSettings
 
 SETTINGS = PARAMS.contact_maps
 HAND = HumanHand.of_length(0.19, SETTINGS.hand)
 STILL = PlacementSettings(tilt_sd_rad=0.0, roll_sd_rad=0.0, slice_m=0.01, depth_m=0.01)
-HOLD = AffinityRow((), "wrap", "around", "z", 0.25, 0.25, 1.0, "test")
+UP = np.array([0.0, 0.0, 1.0])
+HOLD = Hold((), (), "wrap", None, UP, 0.25, 0.25, 1.0)
 GRIPS = ["wrap", "enclose", "tripod", "pinch", "rim"]
 
 
@@ -49,7 +50,7 @@ def test_the_centre_is_in_the_middle_at_the_height_that_the_hold_names(stick):
 
 
 def test_the_palm_comes_from_the_side_that_the_hold_names(stick):
-    hold = replace(HOLD, grip="enclose", approach="-x")
+    hold = replace(HOLD, grip="enclose", sides=np.array([[-1.0, 0.0, 0.0]]))
     place, _ = place_hand(stick, hold, HAND, STILL, np.random.default_rng(0))
     np.testing.assert_allclose(place.palm_side, [-1, 0, 0], atol=1e-9)
 

@@ -2,10 +2,11 @@
 
 import numpy as np
 import pytest
+from manifold3d import Manifold
 from tests.unit.settings import PARAMS
 
+from grasptypes.kinds.catalogue import build
 from grasptypes.objects import collision, solids
-from grasptypes.objects.catalogue import build
 
 RESOLUTION = PARAMS.objects.resolution
 
@@ -23,8 +24,12 @@ def test_hulls_are_convex_few_and_light(mug_hulls):
 
 
 def test_fingers_fit_through_the_handle_and_into_the_mug(mug_hulls):
-    finger = solids.cylinder(0.009, 0.06, axis="y").translate((0.0485, 0, 0.0047))
-    hand = solids.cylinder(0.032, 0.05).translate((-0.0036, 0, 0.02))
+    finger = (
+        Manifold.cylinder(0.06, 0.009, center=True)
+        .rotate((90, 0, 0))
+        .translate((0.0485, 0, 0.0047))
+    )
+    hand = Manifold.cylinder(0.05, 0.032, center=True).translate((-0.0036, 0, 0.02))
     for hull in mug_hulls:
         assert (hull ^ finger).is_empty()
         assert (hull ^ hand).is_empty()
@@ -43,7 +48,7 @@ def test_convex_solid_stays_whole():
 
 
 def test_round_hulls_are_lightened_evenly():
-    ball = solids.sphere(0.04, 128)
+    ball = Manifold.sphere(0.04, 128)
     (hull,) = collision.convex_parts([ball], RESOLUTION)
     assert hull.num_vert() <= 160
     assert hull.volume() == pytest.approx(ball.volume(), rel=0.06)

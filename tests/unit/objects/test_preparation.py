@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 import trimesh
 
+from grasptypes.kinds.catalogue import build
 from grasptypes.objects import object_files, solids
-from grasptypes.objects.catalogue import build
 from grasptypes.objects.distance_grid import DistanceGrid
 from grasptypes.objects.parts import ImportedModel, Material, ObjectModel, Part
 from grasptypes.objects.preparation import physical_properties, prepare

@@ -3,19 +3,8 @@
 import numpy as np
 import pytest
 
-from grasptypes.objects import sections, solids
-
-
-@pytest.mark.parametrize(("axis", "index"), [("x", 0), ("y", 1), ("z", 2)])
-def test_extrusion_runs_along_its_axis(axis, index):
-    extent = np.reshape(solids.extrude(sections.circle(0.01), 0.1, axis).bounding_box(), (2, 3))
-    assert np.argmax(extent[1] - extent[0]) == index
-    assert extent[:, index] == pytest.approx([-0.05, 0.05])
-
-
-def test_minus_axis_turns_the_other_way():
-    arrow = solids.cylinder(0.01, 0.1, top_radius_m=0.0).translate((0, 0, 0.05))
-    assert solids.along(arrow, "-x").bounding_box()[0] == pytest.approx(-0.1)
+from grasptypes.kinds import sections
+from grasptypes.objects import solids
 
 
 def test_straight_sweep_is_a_prism():
@@ -25,14 +14,6 @@ def test_straight_sweep_is_a_prism():
     assert np.ptp(np.reshape(swept.bounding_box(), (2, 3)), axis=0) == pytest.approx(
         [0.1, 0.02, 0.04], rel=1e-3
     )
-
-
-def test_slabs_join_to_the_whole_again():
-    solid = solids.revolve([(0, 0), (0.03, 0), (0.05, 0.1), (0, 0.1)])
-    slices = solids.slabs(solid, [0.02, 0.07])
-    assert [slab.bounding_box()[2] for slab in slices] == pytest.approx([0.0, 0.02, 0.07])
-    assert solids.union(*slices).volume() == pytest.approx(solid.volume())
-    assert len(solids.union(*slices).decompose()) == 1
 
 
 def test_open_mesh_is_refused():
