@@ -54,7 +54,7 @@ def test_named_geometries_become_parts(tmp_path):
     roles = {"handle": PartRole(role="handle")}
     parts = import_model(own(tmp_path / "tool.glb", parts=roles), LIMITS).model.parts
     assert {part.name: part.role for part in parts} == {"head": None, **roles}
-    with pytest.raises(InputError, match=r"has no part 'grip'; its parts: head, handle"):
+    with pytest.raises(InputError, match=r"has no part 'grip'; its parts: handle, head"):
         import_model(own(tmp_path / "tool.glb", parts={"grip": roles["handle"]}), LIMITS)
 
 
