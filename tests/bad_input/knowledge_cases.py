@@ -72,8 +72,8 @@ CASES = [
         *("tasks.yaml", "an unknown direction", "force_along: axis", "force_along: down"),
         *("tasks.insert.wrench.force_along", "'down'", "across"),
     ),
-    changed("holds.yaml", "a prior of -1", "tripod: 1.0", "tripod: -1.0", "groups.handle.grips"),
-    changed("holds.yaml", "a prior that is not a number", "{wrap: 4.71", "{wrap: .nan", "groups"),
+    changed("holds.yaml", "a prior of -1", "tripod: 1.13", "tripod: -1", "groups.handle.grips"),
+    changed("holds.yaml", "a prior that is not a number", "{wrap: 5.41", "{wrap: .nan", "groups"),
     changed("holds.yaml", "an unknown measure", "measure: width", "measure: girth", "'girth'"),
     changed("holds.yaml", "a size of 0", "at: 0.3", "at: 0", "fits.2.at", "greater than 0"),
     changed(

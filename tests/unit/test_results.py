@@ -6,6 +6,10 @@ from pathlib import Path
 
 import pandas as pd
 import pytest
+from tests.unit.settings import PARAMS
+
+from grasptypes.contact_maps.hold_fit import free_parameters
+from grasptypes.settings.holds import read_hold_table
 
 ROOT = Path(__file__).parents[2]
 RESULTS = ROOT / "docs/results"
@@ -45,3 +49,10 @@ def test_results_are_quoted_and_the_others_are_not_in_git() -> None:
     command = ["git", "ls-files", "data", "models", "reports"]
     tracked = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=True)
     assert tracked.stdout == ""
+
+
+def test_the_table_of_holds_has_the_fitted_numbers() -> None:
+    fitted = pd.read_csv(RESULTS / "hold_parameters.csv").set_index("key").fitted
+    parameters = free_parameters(read_hold_table(), PARAMS.hold_fit)
+    in_table = {parameter.key: parameter.in_table for parameter in parameters}
+    assert in_table == pytest.approx(fitted.to_dict(), abs=0.011)

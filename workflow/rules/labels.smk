@@ -80,9 +80,7 @@ rule compare_distribution:
 rule fit_holds:
     input:
         surfaces=expand(rules.prepare_object.output.surface, object=KNOWN["published"].objects),
-        properties=expand(
-            rules.prepare_object.output.properties, object=KNOWN["published"].objects
-        ),
+        properties=expand(rules.prepare_object.output.properties, object=KNOWN["published"].objects),
         published=PUBLISHED_COUNTS,
     output:
         similarity="reports/hold_similarity.csv",

@@ -17,7 +17,7 @@ from scipy.optimize import minimize
 from scipy.special import expit, softmax
 
 from grasptypes.contact_maps.hold import GRIP_OF_TYPE
-from grasptypes.contact_maps.holds import applies, measures, place_weight
+from grasptypes.contact_maps.holds import applies, measures, palm_sides, place_weight
 from grasptypes.contact_maps.placement import HumanHand
 from grasptypes.contact_maps.places import HeldObject, Place, find_places
 from grasptypes.settings.grasp_types import Softness, Thresholds
@@ -111,6 +111,8 @@ def hold_problem(
         wraps = wrap_shares(girth_m(held, place, hand), *rule)
         group = table.groups[place.group]
         for grip, prior in group.grips.items():
+            if not len(palm_sides(held, place, grip, hand)):
+                continue
             row = [float(n == place.group and g == grip) for n, g in _fitted_priors(table)]
             for fit in table.fits:
                 size = np.log(max(values[fit.measure] / fit.at, 1.0))

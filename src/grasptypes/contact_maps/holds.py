@@ -25,8 +25,10 @@ from grasptypes.settings.tasks import Task, read_tasks
 Array = NDArray[np.float64]
 # Far beyond any difference that the published labels show.
 SMALLEST_FIT, LARGEST_FIT = 1e-3, 1e3
-# A cross-section is round if its extents differ by less, flat if by more; directions around it.
-ROUND, FLAT, AROUND = 0.8, 0.5, 8
+# Cosine of the largest angle at which an axis leads away from something: 60 degrees.
+LEADS_AWAY = 0.5
+# A cross-section is round if its extents differ by less; directions tried around it.
+ROUND, AROUND = 0.8, 8
 
 
 def object_holds(
@@ -150,9 +152,11 @@ def measures(
 
 
 def position(held: HeldObject, place: Place, task: Task, table: HoldTable) -> tuple[float, float]:
-    """Range of the hand's centre along a place's axis, as fractions of its extent."""
-    group = table.groups[place.group]
-    if group.held_at == "task":
+    """Range of the hand's centre along a place's axis, as fractions of its extent.
+
+    A task's range means something only where the axis leads away from what must stay free.
+    """
+    if table.groups[place.group].held_at == "task" and place.leads_away > LEADS_AWAY:
         return task.position
     start = (place.middle_m @ place.axis) - place.extents_m[0] / 2
     balanced = (held.centre_of_mass_m @ place.axis - start) / place.extents_m[0]
@@ -163,8 +167,7 @@ def position(held: HeldObject, place: Place, task: Task, table: HoldTable) -> tu
 def palm_sides(held: HeldObject, place: Place, grip: str, hand: HumanHand) -> Array:
     """Unit vectors (K, 3) from a place to the palm; none if other parts are in the way everywhere.
 
-    A wrap or a pinch comes from beside the axis, and from the edges of what is flat, so that the
-    fingers close across its thickness. A rim grip comes over the rim, the others from any side.
+    A wrap or a pinch comes from beside the axis, a rim grip over the rim, the others from any side.
     """
     axis, wide, thin = place.frame
     if grip == "rim":
@@ -174,9 +177,6 @@ def palm_sides(held: HeldObject, place: Place, grip: str, hand: HumanHand) -> Ar
         sides = np.outer(np.cos(angles), wide) + np.outer(np.sin(angles), thin)
     else:
         sides = np.array([wide, -wide, thin, -thin])
-    flat = place.extents_m[2] < FLAT * place.extents_m[1]
-    if flat and grip in ("wrap", "pinch"):
-        sides = sides[:2]
     if grip in ("enclose", "tripod"):
         sides = np.vstack([sides, axis, -axis])
     return sides[[not _blocked(held, place, side, hand) for side in sides]]

@@ -81,6 +81,8 @@ class Place:
         middle_m: (3,) middle of its extents.
         extents_m: (3,) along the rows of `frame`.
         area_share: its share of the object's surface.
+        leads_away: cosine of the angle between the axis and the direction away from what the task
+            keeps free, or from the rest of the object; 0 if there is neither.
         weight: how likely people touch it for the task, from its roles and attributes.
     """
 
@@ -91,6 +93,7 @@ class Place:
     middle_m: Array
     extents_m: Array
     area_share: float
+    leads_away: float
     weight: float
 
     @property
@@ -118,8 +121,20 @@ def find_places(held: HeldObject, task: Task, table: HoldTable, breadth_m: float
             parts = [part for part in parts if _weight(held.roles[part], task) > 0]
             mask = held.points_of(parts)
             if mask.any():
-                shape = _shape(held, mask, _front(held, task, mask), breadth_m)
-                places.append(Place(name, tuple(parts), mask, *shape, float(mask.mean()), weight))
+                away = _away(held, task, mask)
+                frame, middle_m, extents_m = _shape(held.points_m[mask], away, breadth_m)
+                place = Place(
+                    group=name,
+                    parts=tuple(parts),
+                    mask=mask,
+                    frame=frame,
+                    middle_m=middle_m,
+                    extents_m=extents_m,
+                    area_share=float(mask.mean()),
+                    leads_away=float(frame[0] @ away),
+                    weight=weight,
+                )
+                places.append(place)
     return places
 
 
@@ -130,47 +145,41 @@ def _weight(part: PartRole | None, task: Task) -> float:
     return task.touched.get(part.role, 0.0) * (task.hazard if part.hazardous else 1.0)
 
 
-def _front(held: HeldObject, task: Task, mask: NDArray[np.bool_]) -> Array | None:
-    """Middle (3,) of what must stay free, or of the rest of the object; None if nothing is."""
-    for front in (held.points_of(held.parts_with(task.free)) & ~mask, ~mask):
-        if front.any():
-            return np.asarray(held.points_m[front].mean(axis=0))
-    return None
+def _away(held: HeldObject, task: Task, mask: NDArray[np.bool_]) -> Array:
+    """Unit vector (3,) to a place from what must stay free, or from the rest of the object.
+
+    Zero if the place is the whole object.
+    """
+    free = held.points_of(held.parts_with(task.free)) & ~mask
+    front = free if free.any() else ~mask
+    if not front.any():
+        return np.zeros(3)
+    away = held.points_m[mask].mean(axis=0) - held.points_m[front].mean(axis=0)
+    return np.asarray(away / max(float(np.linalg.norm(away)), 1e-9))
 
 
-def _shape(
-    held: HeldObject, mask: NDArray[np.bool_], front: Array | None, breadth_m: float
-) -> tuple[Array, Array, Array]:
-    """Frame (3, 3), middle (3,) and extents (3,) of a place."""
-    points = held.points_m[mask]
-    mean = points.mean(axis=0)
-    directions = np.linalg.svd(points - mean, full_matrices=False)[2]
-    extents = np.ptp(points @ directions.T, axis=0)
-    away = mean - front if front is not None else np.zeros(3)
-    axis = _axis_index(directions, extents, away, breadth_m)
+def _shape(points_m: Array, away: Array, breadth_m: float) -> tuple[Array, Array, Array]:
+    """Frame (3, 3), middle (3,) and extents (3,) of a place's points (N, 3)."""
+    directions = np.linalg.svd(points_m - points_m.mean(axis=0), full_matrices=False)[2]
+    extents = np.ptp(points_m @ directions.T, axis=0)
+    axis = _axis_index(extents, breadth_m)
     others = sorted((i for i in range(3) if i != axis), key=lambda i: -extents[i])
     order = [axis, *others]
     frame, extents = directions[order], extents[order]
-    # Without a front, the sign is that of the largest component.
+    # Without a direction away, the sign is that of the largest component.
     ahead = frame[0] @ away or frame[0][np.argmax(np.abs(frame[0]))]
     frame[0] *= np.sign(ahead) or 1.0
-    along = points @ frame.T
+    along = points_m @ frame.T
     return frame, (along.min(axis=0) + along.max(axis=0)) / 2 @ frame, extents
 
 
-def _axis_index(directions: Array, extents: Array, away: Array, breadth_m: float) -> int:
-    """Which direction the fingers are side by side along.
+def _axis_index(extents: Array, breadth_m: float) -> int:
+    """Which extent (3,) the fingers are side by side along.
 
-    That of rotational symmetry if two fingers have room along it, else the longest; of two equally
-    long ones, the one that leads away from the rest of the object.
+    That of rotational symmetry if two fingers have room along it, else the longest.
     """
     pairs = [(i, j, 3 - i - j) for i, j in ((0, 1), (0, 2), (1, 2))]
     ratios = [min(extents[i], extents[j]) / max(extents[i], extents[j]) for i, j, _ in pairs]
-    i, j, rest = pairs[int(np.argmax(ratios))]
-    equal = max(ratios) > EQUAL_EXTENTS
-    if equal and extents[rest] > breadth_m / 2:
-        return rest
-    longest = int(np.argmax(extents))
-    if equal and longest in (i, j):
-        return max((i, j), key=lambda k: (abs(float(directions[k] @ away)), extents[k]))
-    return longest
+    rest = pairs[int(np.argmax(ratios))][2]
+    symmetric = max(ratios) > EQUAL_EXTENTS and extents[rest] > breadth_m / 2
+    return rest if symmetric else int(np.argmax(extents))

@@ -11,6 +11,7 @@ from tests.unit.settings import PARAMS
 from grasptypes.errors import InputError
 from grasptypes.objects.mesh_import import import_model
 from grasptypes.settings.objects import OwnObject
+from grasptypes.settings.roles import PartRole
 
 LIMITS = PARAMS.objects.import_.changed(rebuild_cells=64)
 
@@ -50,6 +51,11 @@ def test_named_geometries_become_parts(tmp_path):
     scene.export(tmp_path / "tool.glb")
     parts = import_model(own(tmp_path / "tool.glb"), LIMITS).model.parts
     assert {part.name for part in parts} == {"head", "handle"}
+    roles = {"handle": PartRole(role="handle")}
+    parts = import_model(own(tmp_path / "tool.glb", parts=roles), LIMITS).model.parts
+    assert {part.name: part.role for part in parts} == {"head": None, **roles}
+    with pytest.raises(InputError, match=r"has no part 'grip'; its parts: handle, head"):
+        import_model(own(tmp_path / "tool.glb", parts={"grip": roles["handle"]}), LIMITS)
 
 
 def test_holes_are_closed_and_it_says_so(tmp_path):

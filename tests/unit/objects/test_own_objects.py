@@ -6,10 +6,11 @@ from tests.unit.settings import RAW
 from grasptypes.errors import InputError
 from grasptypes.objects.own_objects import check_every_hold, check_own_objects, measured_map
 from grasptypes.settings.params import Params
+from grasptypes.settings.tasks import read_tasks
 from grasptypes.yaml_files import merge
 
-TASKS = ["use", "handoff"]
-MUG = [("mug", "use"), ("mug", "handoff")]
+TASKS = {name: read_tasks()[name] for name in ("use", "handoff")}
+HANDLE = {"parts": {"body": {"role": "handle"}}}
 
 
 @pytest.fixture
@@ -26,21 +27,25 @@ def objects_with(own):
 
 
 def test_complete_blocks_pass(own):
-    objects = objects_with(own)
+    objects = objects_with(own | HANDLE)
     check_own_objects(objects)
-    check_every_hold(objects, TASKS, [*MUG, ("box", "handoff")], "t")
+    check_every_hold(objects, TASKS)
     assert measured_map(objects, "box", "use").endswith("use.ply")
     assert measured_map(objects, "box", "handoff") is None
     assert measured_map(objects, "mug", "use") is None
 
 
-def test_an_object_that_nothing_says_how_to_hold_is_named(own):
-    objects = objects_with(own)
+@pytest.mark.parametrize("parts", [{}, {"body": {"role": "screen"}}])
+def test_an_object_that_nothing_says_how_to_hold_is_named(own, parts):
     with pytest.raises(InputError) as raised:
-        check_every_hold(objects, TASKS, MUG, "table.csv")
-    assert str(raised.value) == (
-        "table.csv: box and handoff: has no row; add at least one or set "
-        "objects.own.box.contact_maps.handoff"
+        check_every_hold(objects_with(own | {"parts": parts}), TASKS)
+    assert str(raised.value).startswith(
+        "params.yaml: objects.own.box: has no way to be held for handoff: give a part a role"
     )
-    with pytest.raises(InputError, match=r"mug and use: has no row; add at least one$"):
-        check_every_hold(objects, TASKS, [], "table.csv")
+    assert str(raised.value).endswith("or set contact_maps.handoff")
+
+
+def test_a_task_that_a_catalogue_object_is_not_held_for_is_named(own):
+    objects = objects_with(own | HANDLE).changed(names=("wine_glass",))
+    with pytest.raises(InputError, match=r"tasks\.cut: wine_glass has no part .*roles: handle"):
+        check_every_hold(objects, {"cut": read_tasks()["cut"]})
