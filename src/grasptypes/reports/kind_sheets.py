@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 
 from grasptypes.kinds.modelling import build_shape
 from grasptypes.kinds.names import DATA, shape_names
-from grasptypes.objects.preparation import scaled_parts, visual_glb
+from grasptypes.objects.parts import ImportedModel
+from grasptypes.objects.preparation import visual_glb
 from grasptypes.renders.contact_pictures import look_at
 from grasptypes.renders.renderer import Camera
 from grasptypes.renders.scene import load_parts
@@ -44,7 +45,7 @@ def shape_picture(
     """One shape from diagonally above, (size, size, 3)."""
     model = build_shape(name, folder).model
     with tempfile.NamedTemporaryFile(suffix=".glb") as file:
-        file.write(visual_glb(scaled_parts(model, 1.0), crease_deg))
+        file.write(visual_glb(ImportedModel(model, 1.0), crease_deg))
         file.flush()
         parts = load_parts(file.name)
     scene, node, _ = camera.scene(parts)
