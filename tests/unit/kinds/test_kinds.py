@@ -11,6 +11,7 @@ from grasptypes.objects import solids
 from grasptypes.objects.preparation import face_parts, joined, scaled_parts
 from grasptypes.objects.role_meshes import role_mesh
 from grasptypes.settings.roles import read_roles
+from grasptypes.settings.tasks import read_tasks
 
 GROUPS = [path.stem for path in kind_files()]
 # A piece below this is a bubble of rounding in a joint.
@@ -36,6 +37,14 @@ def test_every_kind_is_closed_and_in_one_piece(group):
         assert len(pieces) == 1, kind
         assert whole.num_tri() < MOST_TRIANGLES, kind
         assert len(set(face_parts(whole, parts))) == len(parts), f"{kind}: a part is hidden"
+
+
+def test_every_kind_has_a_part_that_both_tasks_touch():
+    for kind in kind_names():
+        roles = {part.role for part in read_kind(kind).parts.values()}
+        for task in ("use", "handoff"):
+            touched = {role for role, weight in read_tasks()[task].touched.items() if weight > 0}
+            assert roles & touched, f"{kind}: {task}"
 
 
 def test_imagenet_has_the_classes_that_kinds_name():
