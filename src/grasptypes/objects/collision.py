@@ -48,12 +48,18 @@ def convex_parts(parts: Sequence[Manifold], resolution: Resolution) -> list[Mani
             heapq.heappush(heap, (-_excess(bit), next(order), bit))
     hulls = [
         _lighten(
-            piece.hull().simplify(resolution.collision_tolerance_m).hull(),
-            resolution.collision_max_vertices,
+            _coarse_hull(piece, resolution.collision_tolerance_m), resolution.collision_max_vertices
         )
         for _, _, piece in heap
     ]
     return sorted(hulls, key=lambda hull: -hull.volume())
+
+
+def _coarse_hull(piece: Manifold, tolerance_m: float) -> Manifold:
+    """A piece's hull, simplified unless nothing would be left of it, as of thin slivers."""
+    hull = piece.hull()
+    coarse = hull.simplify(tolerance_m).hull()
+    return hull if coarse.is_empty() else coarse
 
 
 def _lighten(hull: Manifold, max_vertices: int) -> Manifold:

@@ -118,16 +118,11 @@ def write_collision(
 def read_collision(
     path: str | Path,
 ) -> list[tuple[NDArray[np.float64], NDArray[np.int32]]]:
-    """Read convex parts, (V, 3) vertices in metres and (F, 3) faces, as `write_collision` wrote.
-
-    Parts without vertices, which no engine can touch, are left out.
-    """
+    """Read convex parts, (V, 3) vertices in metres and (F, 3) faces, as `write_collision` wrote."""
     parts: list[tuple[NDArray[np.float64], NDArray[np.int32]]] = []
     first = 1
     for group in Path(path).read_text(encoding="utf-8").split("o part_")[1:]:
         rows = [line.split() for line in group.splitlines()[1:]]
-        if not rows:
-            continue
         vertices = np.array([row[1:] for row in rows if row[0] == "v"], dtype=np.float64)
         faces = np.array([row[1:] for row in rows if row[0] == "f"], dtype=np.int32) - first
         parts.append((vertices, faces))
