@@ -50,9 +50,10 @@ def import_model(own: OwnObject, limits: ImportLimits) -> ImportedModel:
             message = f"has no part '{name}'; its parts: {', '.join(found)}"
             raise InputError(path, "", message)
     colours = joined([piece.triangles for piece in pieces], face_colours, limits.colour_cells)
-    material = colours.material() or GREY
+    material = colours.material()
     parts = tuple(
-        Part(name, solid, material, role=own.parts.get(name)) for name, solid in found.items()
+        Part(name, solid, material or GREY, role=own.parts.get(name))
+        for name, solid in found.items()
     )
     check_volume(path, sum(part.solid.volume() for part in parts), pieces, limits)
     if cavities is not None and own.shell_thickness_m is not None:
