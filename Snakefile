@@ -53,6 +53,7 @@ include: "workflow/rules/details.smk"
 include: "workflow/rules/generalisation.smk"
 include: "workflow/rules/planning.smk"
 include: "workflow/rules/tracking.smk"
+include: "workflow/rules/kinds_common.smk"
 include: "workflow/rules/kinds.smk"
 
 
@@ -80,6 +81,7 @@ localrules:
     tabulate_generalisation,
     tabulate_robustness,
     summarise_scores,
+    compare_kind_sizes,
     plot_folds,
     plot_losses,
 

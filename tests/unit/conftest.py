@@ -1,6 +1,7 @@
 """What all unit tests share."""
 
 import importlib
+import logging
 import sys
 
 import pytest
@@ -22,3 +23,10 @@ def host():
     """Address of a host on this machine; see hosts.py."""
     with serving() as address:
         yield address
+
+
+@pytest.fixture(autouse=True)
+def logger_level():
+    """Commands raise the level of the package's logger; the next test starts with the default."""
+    yield
+    logging.getLogger("grasptypes").setLevel(logging.NOTSET)

@@ -1,53 +1,5 @@
 # Kinds of objects: the same rules for every shape of every kind. `snakemake -j2 kinds`
-# A separate target, since no other result needs it; its files have folders and a DVC stage of their own.
-import functools
-import hashlib
-
-from grasptypes.kinds.names import DATA as KINDS
-from grasptypes.kinds.names import (
-    MATERIALS,
-    SHAPE_PATTERN,
-    kind_names,
-    kind_texts,
-    shape_names,
-    shape_of,
-)
-
-
-def kinds_of(group=None):
-    """The kinds of the parameters, or those of a group."""
-    chosen = PARAMS.kinds.names
-    return [
-        kind
-        for kind, file in kind_names().items()
-        if group in (None, file) and (not chosen or kind in chosen)
-    ]
-
-
-def real_objects(environment):
-    """The folders of real objects; those that are missing make the rule fail with their variable."""
-    names = {"ycb": "GRASPTYPES_YCB", "furniture": "GRASPTYPES_FURNITURE"}
-    return {name: environment.get(variable, variable) for name, variable in names.items()}
-
-
-def every_shape(*paths):
-    """An input function: the files of all shapes and tasks; nothing is read before it is needed."""
-
-    def files(wildcards):
-        names = [name for kind in kinds_of() for name in shape_names(kind, PARAMS.kinds.shapes)]
-        return expand(paths, object=names, task=TASKS)
-
-    return files
-
-
-written_kinds = functools.cache(kind_texts)
-
-
-def kind_hash(*kinds):
-    """Hashes of what kinds are made of."""
-    texts = written_kinds()
-    blocks = {kind: hashlib.sha256(texts[kind].encode()).hexdigest() for kind in kinds}
-    return blocks | hashes(str(KINDS / MATERIALS))
+# A separate target, since no other result needs it; its files have folders of their own.
 
 
 rule prepare_kind:
@@ -162,12 +114,6 @@ rule compare_kind_sizes:
         "Comparing kinds with real objects"
     script:
         "../scripts/compare_kind_sizes.py"
-
-
-def kind_sheets(wildcards):
-    """The contact sheets of all groups with chosen kinds."""
-    groups = {kind_names()[kind]: None for kind in kinds_of()}
-    return expand(rules.plot_kinds.output.sheet, group=groups)
 
 
 rule kind_sheets:
