@@ -19,6 +19,7 @@ def build(name: str) -> ObjectModel:
     described = MeasuredObject.check(read_catalogue()[name], CATALOGUE)
 
     def look(_: str, part: KindPart) -> tuple[Material, float | None]:
+        """The material of a part, and its density if it is not the object's."""
         given = described.materials[part.material]
         colour = given.base_color
         rgba = (colour[0], colour[1], colour[2], colour[3])

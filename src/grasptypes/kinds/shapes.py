@@ -169,6 +169,7 @@ def _furrows(lobes: description.Lobes) -> Callable[[Array], Array]:
     """The map of points (N, 3) that presses furrows into a turned body."""
 
     def warp(points: Array) -> Array:
+        """Points (N, 3), moved towards the z axis where there is a furrow."""
         points = np.asarray(points)
         factor = furrow_factors(points, lobes)
         if lobes.fade:

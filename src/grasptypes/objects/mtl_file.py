@@ -56,6 +56,7 @@ def _look(
     path: Path, name: str, entries: dict[str, tuple[int, list[str]]], remarks: list[str]
 ) -> Look:
     def numbers(kind: str, default: float, most: float = 1.0) -> list[float]:
+        """Up to three numbers from 0 to `most` of an entry; raises ValueError for others."""
         line, words = entries.get(kind, (0, [str(default)]))
         # `d -halo 0.5` depends on the direction of view.
         values = [number(word) for word in words if word != "-halo"][:3]

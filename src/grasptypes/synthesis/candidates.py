@@ -27,7 +27,7 @@ class Demonstration:
     Attributes:
         points_m, normals: (N, 3) points spread over the surface, and their outward normals.
         contact: (N,) 0 to 1.
-        grip: a grip of the affinity table.
+        grip: one of the hand's grips.
         approach: (3,) unit vector along which the palm approached.
         closing: (3,) unit vector, from the thumb to the fingers.
         centre_m: (3,) between palm, fingers and thumb.

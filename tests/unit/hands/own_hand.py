@@ -108,35 +108,29 @@ URDF = """<?xml version="1.0"?>
 </robot>
 """
 
+
+def _finger(joints: list, opens: list, bends: list, thickness_m: float, **more: Any) -> dict:
+    shape = {"open": opens, "bend_rad": bends, "half_thickness_m": thickness_m}
+    return {"joints": joints, "rates": [[1.0]], **shape, **more}
+
+
 DESCRIPTION: dict[str, Any] = {
     "name": "Own hand",
     "palm": {"link": "wrist", "xyz_m": [0.002, -0.003, 0.01], "rpy_rad": [0.1, -0.2, 1.4]},
     "preshape": {"turn": {"turn": 1.0}},
     "fingers": {
-        "index": {
-            "joints": ["index_1", "index_2", "index_3"],
-            "open": [0.1, 0.0, 0.05],
-            "rates": [[1.0, 0.8, 0.5], [0.0, 1.0, 0.6], [0.0, 0.0, 1.0]],
-            "bend_rad": [1.5, 0.1, 0.2],
-            "half_thickness_m": 0.006,
-            "tip_m": [0.002, 0.0, 0.028],
-        },
-        "thumb": {
-            "joints": ["slide"],
-            "open": [0.0],
-            "rates": [[1.0]],
-            "bend_rad": [1.57],
-            "half_thickness_m": 0.01,
-            "tip_m": [0.01, 0.0, 0.06],
-            "thumb": True,
-        },
+        "index": _finger(
+            ["index_1", "index_2", "index_3"], [0.1, 0.0, 0.05], [1.5, 0.1, 0.2], 0.006,
+            tip_m=[0.002, 0.0, 0.028], rates=[[1.0, 0.8, 0.5], [0.0, 1.0, 0.6], [0.0, 0.0, 1.0]],
+        ),
+        "thumb": _finger(["slide"], [0.0], [1.57], 0.01, tip_m=[0.01, 0.0, 0.06], thumb=True),
     },
     "drive": "coupled",
     "motors": {"fingertip_force_n": 3.0, "passive_force_n": 9.0, "closing_speed_rad_s": 0.5},
     "solver_iterations": 60,
     "ignored_collisions": [["wrist", "index_1"]],
     "exchange": {"gripper": "Own", "frame": "palm, metres"},
-}
+}  # fmt: skip
 
 _GRIP = {
     "preshapes": [[0.0], [0.2]],
