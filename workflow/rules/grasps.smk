@@ -6,6 +6,7 @@ rule synthesize_grasps:
         distance_grid=rules.prepare_object.output.distance_grid,
         collision=rules.prepare_object.output.collision,
         properties=rules.prepare_object.output.properties,
+        surface=rules.prepare_object.output.surface,
         contact_map=rules.map_contacts.output.contact_map,
     output:
         grasps="data/grasps/{object}/{task}.parquet",
@@ -14,6 +15,7 @@ rule synthesize_grasps:
         synthesis=settings("synthesis"),
         physics=settings("physics"),
         hand=hand_parameter(config["hand"]),
+        loads={"file": config["robustness"]["loads"], **hashes(config["robustness"]["loads"])},
         seed=config["seed"],
         code=script_hash("synthesize_grasps"),
     message:

@@ -8,6 +8,7 @@ from grasptypes.hands.hand import Hand
 from grasptypes.hands.reading import load_hand
 from grasptypes.jobs import job
 from grasptypes.objects.object_geometry import read_object
+from grasptypes.physics.loads import task_load
 from grasptypes.settings.physics import GraspTestSettings
 from grasptypes.settings.synthesis import SynthesisSettings
 from grasptypes.synthesis.grasps import ATTEMPT_SCHEMA, GRASP_SCHEMA
@@ -30,13 +31,15 @@ def write_grasps(
 if __name__ == "__main__":
     with job(snakemake.log):
         inputs, params = snakemake.input, snakemake.params
+        geometry, task = read_object(Path(inputs.properties).parent), snakemake.wildcards.task
         write_grasps(
             SynthesisTask(
                 snakemake.wildcards.object,
-                snakemake.wildcards.task,
-                read_object(Path(inputs.properties).parent),
+                task,
+                geometry,
                 read_contact_map(inputs.contact_map),
                 params.seed,
+                task_load(params.loads["file"], geometry, task),
             ),
             load_hand(params.hand["name"]),
             (

@@ -59,6 +59,12 @@ class MotorDescription(Settings):
     """How the hand holds."""
 
     fingertip_force_n: float = setting("force at the fingertip with which it holds", gt=0, le=100)
+    rated_force_n: float | None = setting(
+        "largest force with which it can press, for heavy objects; default: `fingertip_force_n`",
+        gt=0,
+        le=1000,
+        default=None,
+    )
     passive_force_n: float = setting("force there that stopped joints withstand", gt=0, le=1000)
     closing_speed_rad_s: float = setting(
         "speed of a finger's first joint; prismatic joints m/s", gt=0, le=20

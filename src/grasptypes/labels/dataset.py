@@ -62,6 +62,7 @@ def dataset_schema(hand: Hand) -> pa.DataFrameSchema:
             "virtual_fingers": pa.Column(int, pa.Check.isin([2, 3])),
             **{name: pa.Column(float) for name in _MEASURES.values()},
             "penetration_m": pa.Column(float, pa.Check.ge(0)),
+            "bears_load": pa.Column(bool, description="holds under the task's load, too"),
             "tries": pa.Column(int, pa.Check.ge(1)),
             **{
                 name: pa.Column(float, pa.Check.in_range(low - 1e-6, high + 1e-6))
@@ -131,6 +132,7 @@ def dataset_columns(table: pd.DataFrame, hand: Hand) -> pd.DataFrame:
             **{name: table[name] for name in ("shape", "branch", "margin", "virtual_fingers")},
             **{name: table[name] for name in _MEASURES.values()},
             "penetration_m": table.penetration_m,
+            "bears_load": table.bears_load,
             "tries": table.tries,
             **dict(zip(joint_columns(hand), positions.T, strict=True)),
         }

@@ -42,6 +42,7 @@ class BulletEngine:
         self._urdf = urdf
         self._joints: list[int] = []
         self._gears: dict[int, list[int]] = {}
+        self._limits: dict[int, tuple[float, float, float]] = {}
         self._force: tuple[Array, Array] | None = None
         self._hand_id = self._object_id = -1
 
@@ -50,7 +51,7 @@ class BulletEngine:
     ) -> None:
         """Create a world with the hand at its origin and the object."""
         client, settings = self.client, self.settings
-        self._gears, self._force = {}, None
+        self._gears, self._limits, self._force = {}, {}, None
         pybullet.resetSimulation(physicsClientId=client)
         pybullet.setPhysicsEngineParameter(
             fixedTimeStep=settings.timestep_s,
@@ -128,13 +129,35 @@ class BulletEngine:
         self._force = force_n, point_m
 
     def drive(self, command: MotorCommand) -> None:
-        """Let the joints reach the commanded speeds with their torques."""
+        """Let the joints close with their torques, and withstand being driven back.
+
+        What they withstand is a limit of the joint that moves on with it. If the motor switched
+        between both forces instead, the fingers would shake the object.
+        """
+        moves = command.closing_torques > 0.0
+        follows = command.passive_torques == 0.0
+        low, high = self.hand.joint_limits.T
+        low = np.where(follows, low, command.reached)
+        high = np.where(moves | follows, high, command.reached)
+        for place, joint in enumerate(self._joints):
+            limits = float(low[place]), float(high[place]), float(command.passive_torques[place])
+            if follows[place] or limits == self._limits.get(joint):
+                continue
+            self._limits[joint] = limits
+            pybullet.changeDynamics(
+                self._hand_id,
+                joint,
+                jointLowerLimit=limits[0],
+                jointUpperLimit=limits[1],
+                jointLimitForce=limits[2],
+                physicsClientId=self.client,
+            )
         pybullet.setJointMotorControlArray(
             self._hand_id,
             self._joints,
             pybullet.VELOCITY_CONTROL,
             targetVelocities=command.speeds.tolist(),
-            forces=command.torques.tolist(),
+            forces=np.where(moves, command.closing_torques, command.passive_torques).tolist(),
             physicsClientId=self.client,
         )
 

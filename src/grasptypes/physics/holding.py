@@ -10,7 +10,8 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from grasptypes.physics.engine import NOMINAL, Contact, Engine, Surroundings
-from grasptypes.physics.motors import Motors
+from grasptypes.physics.loads import TaskLoad
+from grasptypes.physics.motors import Motors, grip_force_n
 from grasptypes.poses import inverse
 from grasptypes.settings.physics import PhysicsSettings
 
@@ -24,25 +25,23 @@ LOOKS = 20
 
 
 class HoldResult(NamedTuple):
-    """Result of a physics test.
-
-    With `shake`, all fields are of the test in the worst direction of gravity: the first in which
-    the object dropped, or the one in which it moved most.
-    """
+    """Result of a physics test."""
 
     dropped: bool
     moved_m: float
-    """Motion of the object's centre of mass in the hand under gravity."""
+    """Largest motion of the object's centre of mass in the hand after the squeeze."""
     turned_rad: float
-    """Rotation of the object in the hand under gravity."""
+    """Largest rotation of the object in the hand after the squeeze."""
     T_object_hand: Array
-    """(4, 4) at the end of the last test."""
+    """(4, 4) at the end of the test."""
     joint_positions: Array
-    """(J,) at the end of the last test."""
+    """(J,) at the end of the test."""
     contacts: list[Contact]
-    """At the end of the last test."""
+    """At the end of the test."""
     stages: tuple[int, ...]
-    """Number of stopped joints of each finger at the end of the last test."""
+    """Number of stopped joints of each finger at the end of the test."""
+    bears_load: bool = True
+    """Whether the task's load, if there is one, left the object in the hand."""
 
 
 def hold(
@@ -50,47 +49,64 @@ def hold(
     T_object_hand: Array,
     joint_positions: Array,
     stages: Sequence[int] | None = None,
+    load: TaskLoad | None = None,
 ) -> HoldResult:
-    """Squeeze and hold the object; returns the result for the worst direction of gravity.
+    """Squeeze the object and hold it, while gravity acts along -z or, with `shake`, from six sides.
+
+    The hand does not let go in between, as when an arm turns. Gravity along -z comes last, so that
+    the hand is at rest then. Whether the object is lost under the load does not decide about the
+    result: the load acts after all directions.
 
     Args:
         T_object_hand: (4, 4) hand in the object frame.
         joint_positions: (J,) at which the fingers touch.
         stages: number of stopped joints of each finger; default: what the positions show.
+        load: acts besides gravity along -z.
     """
-    directions = DIRECTIONS if engine.settings.shake else DIRECTIONS[:1]
-    worst: HoldResult | None = None
+    settings, R = engine.settings, T_object_hand[:3, :3].T
+    motors = squeeze(engine, T_object_hand, joint_positions, stages)
+    start = engine.T_hand_object()
+    directions = (*DIRECTIONS[1:], DIRECTIONS[0]) if settings.shake else DIRECTIONS[:1]
+    moved, turned = 0.0, 0.0
     for direction in directions:
-        held = hold_against(engine, T_object_hand, joint_positions, direction, stages)
-        if worst is None or (held.dropped, held.moved_m) > (worst.dropped, worst.moved_m):
-            worst = held
-        if worst.dropped:
+        borne = bear(engine, motors, R @ direction * settings.gravity_m_s2, start=start)
+        moved, turned = max(moved, borne.moved_m), max(turned, borne.turned_rad)
+        if borne.lost:
             break
-    assert worst is not None
-    return worst
-
-
-def hold_against(
-    engine: Engine,
-    T_object_hand: Array,
-    positions: Array,
-    direction: Array,
-    stages: Sequence[int] | None = None,
-) -> HoldResult:
-    """Squeeze and hold the object against gravity in one direction (3,) of the object frame."""
-    motors = squeeze(engine, T_object_hand, positions, stages)
-    down = T_object_hand[:3, :3].T @ direction * engine.settings.gravity_m_s2
-    borne = bear(engine, motors, down)
     contacts = engine.contacts()
-    return HoldResult(
+    result = HoldResult(
         dropped=borne.lost or not contacts,
-        moved_m=borne.moved_m,
-        turned_rad=borne.turned_rad,
+        moved_m=moved,
+        turned_rad=turned,
         T_object_hand=inverse(borne.T_hand_object),
         joint_positions=engine.joint_positions(),
         contacts=contacts,
         stages=tuple(motors.stages),
     )
+    if load is None or result.dropped:
+        return result
+    engine.push(load.force(T_object_hand), load.point_m)
+    loaded = bear(engine, motors, R @ DIRECTIONS[0] * settings.gravity_m_s2)
+    return result._replace(bears_load=not loaded.lost)
+
+
+def hold_in_all(
+    engines: Sequence[Engine],
+    T_object_hand: Array,
+    joint_positions: Array,
+    load: TaskLoad | None = None,
+) -> HoldResult:
+    """The test in several engines: the first one's result, dropped if one of them drops the object.
+
+    The load acts in the first engine only.
+    """
+    first, *others = engines
+    result = hold(first, T_object_hand, joint_positions, load=load)
+    for other in others:
+        if result.dropped:
+            break
+        result = result._replace(dropped=hold(other, T_object_hand, joint_positions).dropped)
+    return result
 
 
 def squeeze(
@@ -103,7 +119,8 @@ def squeeze(
     """Load hand and object and close the fingers without gravity; returns the closed motors."""
     settings = engine.settings
     engine.load(T_object_hand, positions, world)
-    motors = Motors(engine.hand, positions, settings, stages)
+    force_n = grip_force_n(engine.hand, engine.geometry.properties.mass_kg, settings)
+    motors = Motors(engine.hand, positions, force_n, stages)
     for finger, stage in enumerate(motors.stages):
         engine.couple(finger, stage)
     run(engine, motors, round(settings.squeeze_time_s / _interval_s(settings)))
@@ -125,7 +142,11 @@ class Motion(NamedTuple):
 
 
 def bear(
-    engine: Engine, motors: Motors, acceleration_m_s2: Array, time_s: float | None = None
+    engine: Engine,
+    motors: Motors,
+    acceleration_m_s2: Array,
+    time_s: float | None = None,
+    start: Array | None = None,
 ) -> Motion:
     """Let an acceleration (3,), in the hand's frame, act on a squeezed object.
 
@@ -133,9 +154,11 @@ def bear(
 
     Args:
         time_s: default: the holding time of the settings.
+        start: (4, 4) the object in the hand before it moved; default: as it is now.
     """
     settings = engine.settings
-    before = half = engine.T_hand_object()
+    half = engine.T_hand_object()
+    before = half if start is None else start
     engine.accelerate(acceleration_m_s2)
     time_s = settings.hold_time_s if time_s is None else time_s
     whole = max(1, round(time_s / _interval_s(settings)))

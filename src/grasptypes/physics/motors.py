@@ -13,23 +13,32 @@ from grasptypes.settings.physics import PhysicsSettings
 
 Array = NDArray[np.float64]
 
-# A joint this far behind its previous position is being driven back: 0.1 mm at the fingertip.
-DRIVEN_BACK_RAD, DRIVEN_BACK_M = 0.001, 0.0001
+# A joint this far ahead of its coupling has been released: 0.1 mm at the fingertip.
+RELEASED_RAD, RELEASED_M = 0.001, 0.0001
 
 
 class MotorCommand(NamedTuple):
     """What the motors do until the next command; (J,) each, rad and N m, or m and N."""
 
     speeds: Array
-    """Speeds to reach."""
-    torques: Array
-    """Largest torques for it."""
+    """Speeds at which joints close; 0 for those that stay where they are."""
     closing_torques: Array
-    """Torques that close the joints; 0 for those that stay where they are."""
+    """Torques for it; 0 for joints that stay or follow another one."""
     passive_torques: Array
     """Largest torques that withstand being driven back; 0 for joints that follow another one."""
     reached: Array
     """Positions from which joints withstand being driven back."""
+
+
+def grip_force_n(hand: Hand, mass_kg: float, settings: PhysicsSettings) -> float:
+    """Force of a fingertip that holds an object: it follows the weight, within what the hand can.
+
+    It is at least the gentle force of the hand's description and at most its rated force.
+    """
+    motors = hand.motors
+    weight_n = mass_kg * settings.gravity_m_s2
+    wanted = max(motors.fingertip_force_n, settings.grip_weights * weight_n)
+    return min(wanted, motors.rated_force_n or motors.fingertip_force_n)
 
 
 class Motors:
@@ -44,16 +53,16 @@ class Motors:
         self,
         hand: Hand,
         positions: Array,
-        settings: PhysicsSettings,
+        force_n: float,
         stages: Sequence[int] | None = None,
     ) -> None:
         self.hand = hand
-        self._driven_back = np.where(hand.prismatic_joints, DRIVEN_BACK_M, DRIVEN_BACK_RAD)
-        ahead = np.abs(hand.lag(positions)) >= self._driven_back
+        self._force_n = force_n
+        released = np.where(hand.prismatic_joints, RELEASED_M, RELEASED_RAD)
+        ahead = np.abs(hand.lag(positions)) >= released
         shown = (_stage(finger, ahead) for finger in hand.fingers)
         self.stages = list(shown if stages is None else stages)
         """Number of stopped joints of each finger."""
-        self._interval_s = settings.timestep_s * settings.control_steps
         self._reached = positions.copy()
         self._levers = tip_levers(hand, self.stages, positions)
 
@@ -82,19 +91,12 @@ class Motors:
             follows[joints[stage + 1 :]] = not hand.direct
         moves_on = np.where(speeds < 0.0, positions, np.maximum(self._reached, positions))
         self._reached = np.where(moves, moves_on, self._reached)
-        stop = hand.joint_limits[:, 1]
-        way = np.minimum(self._reached, stop) - positions
-        closing = np.minimum(speeds, (stop - positions) / self._interval_s)
-        withstands = ~moves | (way > self._driven_back) | (positions > stop)
         levers = np.where(follows & moves, 0.0, self._levers)
-        passive = motors.passive_force_n * levers
-        force = motors.fingertip_force_n * levers
         return MotorCommand(
-            speeds=np.where(withstands, way / self._interval_s, closing),
-            torques=np.where(withstands, passive, force),
-            closing_torques=np.where(moves, force, 0.0),
-            passive_torques=passive,
-            reached=np.minimum(self._reached, stop),
+            speeds=speeds,
+            closing_torques=np.where(moves, self._force_n * levers, 0.0),
+            passive_torques=max(motors.passive_force_n, self._force_n) * levers,
+            reached=np.minimum(self._reached, hand.joint_limits[:, 1]),
         )
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Literal
 
-from grasptypes.settings.base import Settings, setting
+from grasptypes.settings.base import Settings, Unique, setting
 
 EngineName = Literal["pybullet", "mujoco"]
 
@@ -43,8 +43,11 @@ class MujocoSettings(Settings):
 
 
 class PhysicsSettings(Settings):
-    """The test in a physics engine."""
+    """The test in physics engines."""
 
+    engines: Unique[EngineName] = setting(
+        "engines in which a grasp must hold; the first one's state is recorded", min_length=1
+    )
     timestep_s: float = setting("time step", ge=0.0001, le=0.01)
     friction: float = setting("Coulomb coefficient between hand and object", ge=0, le=5)
     gravity_m_s2: float = setting("acceleration of gravity", ge=0, le=100)
@@ -57,7 +60,10 @@ class PhysicsSettings(Settings):
     hold_time_s: float = setting("holding against gravity", ge=0.1, le=60)
     drop_distance_m: float = setting("movement in the hand that counts as dropped", gt=0, le=1)
     drop_rotation_rad: float = setting("rotation in the hand that counts as dropped", gt=0, le=3.15)
-    shake: bool = setting("apply gravity from six sides in turn and take the worst")
+    shake: bool = setting("apply gravity from six sides in turn, each for the holding time")
+    grip_weights: float = setting(
+        "force of a fingertip in weights of the object, up to the hand's rated force", ge=0, le=20
+    )
     mujoco: MujocoSettings
 
 

@@ -34,6 +34,7 @@ class PerturbationSettings(Settings):
 class RobustnessSettings(Settings):
     """Tests of recorded grasps."""
 
+    hold_time_s: float = setting("holding in each direction", ge=0.1, le=60)
     loss: LossSettings
     strict_loss: LossSettings
     perturbations: PerturbationSettings

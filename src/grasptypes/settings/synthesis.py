@@ -102,6 +102,9 @@ class RankingSettings(Settings):
     """Which grasps are tried."""
 
     tries: int = setting("maximum number of grasps tried per session", ge=1, le=100)
+    load_tries: int = setting(
+        "number of further grasps tried if one is valid but does not bear the task's load", ge=0
+    )
     min_fingers: int = setting("number of fingers that must touch", ge=1, le=5)
     contact_m: float = setting("gap below which a link touches", gt=0, le=0.01)
     max_depth_m: float = setting(

@@ -55,6 +55,7 @@ _TRIAL_COLUMNS = {
     "grip_deviation": pa.Column(
         float, pa.Check.ge(0), description="of that hand's shape from the person's grip"
     ),
+    "bears_load": pa.Column(bool, description="holds under the task's load, too"),
     "valid": pa.Column(bool),
     "valid_strict": pa.Column(bool, description="valid, and within the strict depth"),
     "reason": pa.Column(str, pa.Check.isin(("", *REASONS))),

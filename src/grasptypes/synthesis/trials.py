@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import logging
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import ExitStack
 from functools import partial
 from typing import Any, NamedTuple
 
@@ -22,7 +23,8 @@ from grasptypes.hands.surface import depth_in_hand
 from grasptypes.objects.object_geometry import ObjectGeometry
 from grasptypes.physics.engine import Contact
 from grasptypes.physics.engines import engine
-from grasptypes.physics.holding import HoldResult, hold
+from grasptypes.physics.holding import HoldResult, hold_in_all
+from grasptypes.physics.loads import TaskLoad
 from grasptypes.seeds import rng, seed
 from grasptypes.settings.physics import GraspTestSettings, ValiditySettings
 from grasptypes.settings.synthesis import SynthesisSettings
@@ -52,6 +54,8 @@ class GraspTrial(NamedTuple):
     moved_m: float
     turned_rad: float
     contacts: list[Contact]
+    bears_load: bool
+    """Whether it held under the task's load."""
     stages: tuple[int, ...]
     """Number of stopped joints of each finger, as held at the end; none if not held."""
     T_object_touching: Array
@@ -70,6 +74,8 @@ class SynthesisTask(NamedTuple):
     geometry: ObjectGeometry
     contact_map: ContactMap
     seed: int
+    load: TaskLoad | None = None
+    """What the task puts on the object besides its weight."""
 
 
 def synthesize(
@@ -83,8 +89,13 @@ def synthesize(
     surface_m, models = task.contact_map.points.astype(np.float64), sample_hand(hand, settings)
     search = grasp_scene(hand, models.search, task.geometry, surface_m)
     check = search._replace(model=models.check)
-    with engine("pybullet", hand, task.geometry, test.test) as world:
-        tester = GraspTester(check, partial(hold, world), test.validity)
+    with ExitStack() as stack:
+        worlds = [
+            stack.enter_context(engine(name, hand, task.geometry, test.test))
+            for name in test.test.engines
+        ]
+        test_grasp = partial(hold_in_all, worlds, load=task.load)
+        tester = GraspTester(check, test_grasp, test.validity)
         return synthesize_sessions(task, search, tester, settings)
 
 
@@ -99,8 +110,9 @@ def synthesize_sessions(
         ranked = search_session(scene, demonstration, settings, rng("synthesis", *key))
         ranges = scene.hand.grips.named(demonstration.grip).shape
         cost = partial(preshape_cost, scene, ranges=ranges, settings=settings.grip_shape)
-        trials = list(_until_kept(ranked, tester, cost, settings.grip_shape.kept))
-        best = _best(trials)
+        kept = settings.grip_shape.kept
+        trials = list(_until_kept(ranked, tester, cost, kept, settings.ranking.load_tries))
+        best = _best(trials, kept)
         rows = [
             _row(scene, key, ranked.terms[rank], trial, rank, tester.validity)
             for rank, trial in enumerate(trials)
@@ -159,7 +171,7 @@ class GraspTester:
         reason, depth = self._flaw(T_object_hand, joint_positions)
         touching = T_object_hand, joint_positions
         none = (0,) * len(hand.fingers)
-        planned = GraspTrial(reason, *touching, depth, 0.0, 0.0, [], none, *touching)
+        planned = GraspTrial(reason, *touching, depth, 0.0, 0.0, [], False, none, *touching)
         if reason:
             return planned
         held = self.hold(T_object_hand, joint_positions)
@@ -177,8 +189,8 @@ class GraspTester:
             reason = "joint_limit"
         elif not reason and len(links) < self.validity.min_links:
             reason = "no_contact"
-        state = held.T_object_hand, positions, depth, *moved, held.contacts, held.stages
-        return GraspTrial(reason, *state, *touching)
+        state = held.T_object_hand, positions, depth, *moved, held.contacts
+        return GraspTrial(reason, *state, held.bears_load, held.stages, *touching)
 
     def _flaw(self, T_object_hand: Array, positions: Array) -> tuple[str, float]:
         """Geometric flaw of a pose, and penetration depth of hand and object.
@@ -212,23 +224,41 @@ class GraspTester:
 
 
 def _until_kept(
-    ranked: RankedGrasps, tester: GraspTester, cost: Callable[[Array, Array], Array], kept: float
+    ranked: RankedGrasps,
+    tester: GraspTester,
+    cost: Callable[[Array, Array], Array],
+    kept: float,
+    load_tries: int,
 ) -> Iterator[GraspTrial]:
-    """Trials in order of rank, up to the first valid one that kept its grip."""
-    hands = ranked.hands
+    """Trials in order of rank, up to the first valid one that kept its grip and bears the load.
+
+    After one that kept its grip but does not bear the load, up to `load_tries` others are tried.
+    """
+    hands, left_tries = ranked.hands, load_tries
     for T_object_hand, positions in zip(hands.T_object_hand, hands.joint_positions, strict=True):
         trial = tester.try_grasp(T_object_hand, positions)
         held = HandStates(hands.hand, trial.T_object_hand[None], trial.joint_positions[None])
         left = float(cost(held.link_poses(), held.joint_positions)[0])
         yield trial._replace(deviation=left)
-        if not trial.reason and left <= kept:
+        if trial.reason or left > kept:
+            continue
+        if trial.bears_load or left_tries == 0:
             return
+        left_tries -= 1
 
 
-def _best(trials: Sequence[GraspTrial]) -> int:
-    """The last trial if it kept the grip, else the least deviating valid one, else the first."""
+def _best(trials: Sequence[GraspTrial], kept: float) -> int:
+    """The first valid trial that kept its grip and bears the load, or else kept its grip.
+
+    If none kept its grip, it is the least deviating valid one; if none is valid, the first.
+    """
     valid = [rank for rank, trial in enumerate(trials) if not trial.reason]
-    return min(valid, key=lambda rank: trials[rank].deviation, default=0)
+
+    def shortcomings(rank: int) -> tuple[float, bool]:
+        trial = trials[rank]
+        return max(trial.deviation, kept), not trial.bears_load
+
+    return min(valid, key=shortcomings, default=0)
 
 
 def _row(
@@ -260,6 +290,7 @@ def _row(
         "moved_m": trial.moved_m,
         "turned_rad": trial.turned_rad,
         "grip_deviation": trial.deviation,
+        "bears_load": trial.bears_load,
         "valid": not trial.reason,
         "valid_strict": not trial.reason and trial.penetration_m <= validity.strict_depth_m,
         "reason": trial.reason,

@@ -33,6 +33,7 @@ def grasps(valid=(True, True, False), name="ball"):
             "pregrasp_pose": T[:, :3].reshape(3, 12).tolist(),
             "pregrasp_joints": [[0.0] * 8] * 3,
             "penetration_m": 0.001,
+            "bears_load": True,
             "valid": list(valid),
             "reason": ["" if one else "dropped" for one in valid],
             "tries": [1, 4, 10],

@@ -11,7 +11,7 @@ from grasptypes.hands.folders import hand_names
 from grasptypes.hands.reading import load_hand
 from grasptypes.objects.distance_grid import DistanceGrid
 from grasptypes.physics.engines import engine
-from grasptypes.physics.holding import hold, run
+from grasptypes.physics.holding import hold, run, squeeze
 from grasptypes.physics.motors import Motors
 from grasptypes.synthesis.closing import close_fingers
 from grasptypes.synthesis.fields import field
@@ -19,7 +19,7 @@ from grasptypes.synthesis.hand_model import hand_model
 from grasptypes.synthesis.scene import GraspScene
 
 ENGINES = ("pybullet", "mujoco")
-SETTINGS = PARAMS.physics.test
+SETTINGS = PARAMS.physics.test.changed(shake=False)
 GRAVITY = np.array([0.0, 0.0, 9.81])
 OPEN = BARRETT.couple([0.0, 0.0, 0.0, 0.0])
 TIPS = palm_at(0.1)[0], closed(palm_at(0.1), 0.0)[0]
@@ -37,7 +37,7 @@ def world(request, tmp_path):
 
 def start(world, T, positions):
     world.load(T, positions)
-    motors = Motors(BARRETT, positions, SETTINGS)
+    motors = Motors(BARRETT, positions, BARRETT.motors.fingertip_force_n)
     for finger, stage in enumerate(motors.stages):
         world.couple(finger, stage)
     return motors
@@ -130,13 +130,16 @@ def test_every_hand_squeezes_a_ball_with_its_force(engine_name, name, tmp_path) 
     height = 0.04 if hand.direct else 0.1
     states = close_fingers(scene, palm_at(height), preshape, CLOSING)
     weightless = SETTINGS.changed(gravity_m_s2=0.0)
+    totals = []
     with engine(engine_name, hand, body, weightless) as world:
-        held = hold(world, states.T_object_hand[0], states.joint_positions[0])
-    assert not held.dropped
-    assert len({contact.link for contact in held.contacts}) >= 2
-    # Bullet spreads an impact over time steps: it reports less than the force at any one of them.
-    share = 0.25 if engine_name == "pybullet" else 1.0
-    total = sum(contact.force_n for contact in held.contacts)
-    assert total > share * hand.motors.fingertip_force_n
+        motors = squeeze(world, states.T_object_hand[0], states.joint_positions[0])
+        for _ in range(20):
+            run(world, motors, 1)
+            contacts = world.contacts()
+            totals.append(sum(contact.force_n for contact in contacts))
+        positions = world.joint_positions()
+    assert len({contact.link for contact in contacts}) >= 2
+    # Bullet's contact forces change from step to step: one of them says little.
+    assert np.mean(totals) > 0.95 * hand.motors.fingertip_force_n
     # No joint lags behind its coupling; a stop may let it move ahead.
-    assert hand.lag(held.joint_positions).max() < PARAMS.physics.validity.lag_tolerance_rad
+    assert hand.lag(positions).max() < PARAMS.physics.validity.lag_tolerance_rad

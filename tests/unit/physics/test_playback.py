@@ -17,7 +17,7 @@ from grasptypes.seeds import rng
 from grasptypes.synthesis.candidates import pregrasp
 
 ROWS = 100
-SHORT = {"squeeze_time_s": 0.2, "hold_time_s": 0.3}
+SHORT = {"squeeze_time_s": 0.2, "hold_time_s": 0.3, "shake": False}
 SETTINGS = PARAMS.physics.test.changed(**SHORT)
 READ_AND_HOLD = """
 import sys

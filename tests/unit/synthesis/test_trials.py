@@ -33,15 +33,18 @@ class World:
     links: tuple[int, ...] = (6, 7, 8)
     sink_m: float = 0.0
     seen: int = field(default=0)
+    bears: tuple[bool, ...] = (True,)
 
     def hold(self, T_object_hand, joint_positions):
+        bears_load = self.bears[self.seen % len(self.bears)]
         dropped = not self.holds[self.seen % len(self.holds)]
         self.seen += 1
         pose = T_object_hand.copy()
         pose[2, 3] -= self.sink_m
         down = np.array([0.0, 0.0, -1.0])
         contacts = [Contact(link, -0.03 * down, down, 2.0) for link in self.links]
-        return HoldResult(dropped, 0.001, 0.01, pose, joint_positions, contacts, (1, 0, 0))
+        moved, state = (0.001, 0.01), (pose, joint_positions, contacts, (1, 0, 0))
+        return HoldResult(dropped, *moved, *state, bears_load)
 
 
 def tried(world, T_object_hand=T[0], angles=ANGLES):
@@ -166,6 +169,14 @@ def test_of_valid_grasps_that_left_the_grip_the_one_that_left_it_least_is_chosen
         assert row.grip_deviation == valid.grip_deviation.min()
         assert tried["rank"][tried.chosen].tolist() == [row.rank]
         assert row.tries == len(tried)
+
+
+def test_a_grasp_that_bears_the_load_is_preferred_within_some_tries() -> None:
+    tries = PARAMS.synthesis.ranking.load_tries
+    grasps, _ = synthesized(World([True], bears=(False, True)), sessions=1)
+    assert grasps[["rank", "tries", "bears_load"]].to_numpy().tolist() == [[1, 2, True]]
+    grasps, _ = synthesized(World([True], bears=(False,)), sessions=1)
+    assert grasps[["rank", "tries", "bears_load"]].to_numpy().tolist() == [[0, tries + 1, False]]
 
 
 def test_without_a_valid_grasp_the_best_is_kept_with_its_reason() -> None:
