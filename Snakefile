@@ -135,6 +135,7 @@ rule all:
 # What `make report` shows: all results, and those of the other targets if they are complete.
 EXTRAS = [rules.evaluate_labels, rules.replay_grasps, rules.compare_shapes]
 EXTRAS += [rules.tabulate_generalisation, rules.compare_plans, rules.tabulate_robustness]
+EXTRAS += [rules.show_grasps]
 
 
 rule shown:

@@ -54,3 +54,40 @@ rule tabulate_robustness:
         "Tabulating how robust the grasps are"
     script:
         "../scripts/tabulate_robustness.py"
+
+
+rule show_grasps:
+    input:
+        grasps=rules.label_grasps.output.grasps,
+        tests=rules.tabulate_robustness.output.grasps,
+        visuals=expand(rules.prepare_object.output.visual, object=OBJECTS),
+    output:
+        held=report(
+            "reports/figures/grasp_held.gif",
+            caption="../report/robustness_films.rst",
+            category="Robustness",
+            labels={"subject": "a grasp that holds", "kind": "animation"},
+        ),
+        lost=report(
+            "reports/figures/grasp_lost.gif",
+            caption="../report/robustness_films.rst",
+            category="Robustness",
+            labels={"subject": "a grasp that is lost", "kind": "animation"},
+        ),
+        worst=report(
+            "reports/figures/worst_grasps.png",
+            caption="../report/worst_grasps.rst",
+            category="Robustness",
+            labels={"subject": "worst grasps", "kind": "figure"},
+        ),
+    params:
+        hand=hand_parameter(config["hand"]),
+        physics=config["physics"]["test"],
+        film=config["robustness"]["film"],
+        gallery=config["gallery"],
+        renders=settings("renders", "views", "sheet"),
+        code=script_hash("show_grasps"),
+    message:
+        "Showing a grasp that holds, one that is lost, and the worst ones"
+    script:
+        "../scripts/show_grasps.py"

@@ -117,13 +117,25 @@ def squeeze(
     world: Surroundings = NOMINAL,
 ) -> Motors:
     """Load hand and object and close the fingers without gravity; returns the closed motors."""
+    motors = load_and_couple(engine, T_object_hand, positions, stages, world)
     settings = engine.settings
+    run(engine, motors, round(settings.squeeze_time_s / _interval_s(settings)))
+    return motors
+
+
+def load_and_couple(
+    engine: Engine,
+    T_object_hand: Array,
+    positions: Array,
+    stages: Sequence[int] | None = None,
+    world: Surroundings = NOMINAL,
+) -> Motors:
+    """Load hand and object; returns the motors, which have not moved yet."""
     engine.load(T_object_hand, positions, world)
-    force_n = grip_force_n(engine.hand, engine.geometry.properties.mass_kg, settings)
+    force_n = grip_force_n(engine.hand, engine.geometry.properties.mass_kg, engine.settings)
     motors = Motors(engine.hand, positions, force_n, stages)
     for finger, stage in enumerate(motors.stages):
         engine.couple(finger, stage)
-    run(engine, motors, round(settings.squeeze_time_s / _interval_s(settings)))
     return motors
 
 

@@ -31,6 +31,19 @@ class PerturbationSettings(Settings):
     hold_time_s: float = setting("holding against gravity", ge=0.1, le=60)
 
 
+class FilmSettings(Settings):
+    """Animations of a grasp, and the sheet of the worst ones."""
+
+    engine: EngineName = setting("engine that is shown")
+    frame_s: float = setting("time between two images", gt=0, le=1)
+    slower: float = setting("how many times slower than real they are shown", gt=0, le=100)
+    pause_s: float = setting("how long the last image stays", ge=0, le=10)
+    direction_s: float = setting("how long gravity acts in each direction", gt=0, le=10)
+    lost_m: float = setting("distance of the object at which the film ends", gt=0, le=1)
+    worst: int = setting("number of grasps on the sheet", ge=1, le=100)
+    worst_columns: int = setting("images in a row of it", ge=1, le=20)
+
+
 class RobustnessSettings(Settings):
     """Tests of recorded grasps."""
 
@@ -39,4 +52,5 @@ class RobustnessSettings(Settings):
     strict_loss: LossSettings
     perturbations: PerturbationSettings
     cone_edges: int = setting("edges of a friction pyramid of the wrench space", ge=3, le=64)
+    film: FilmSettings
     loads: str = setting("table of the tasks' loads", min_length=1)
