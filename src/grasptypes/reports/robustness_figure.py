@@ -34,9 +34,11 @@ def draw_robustness(tests: pd.DataFrame) -> Figure:
         axes.set_title(title, fontsize=10)
         axes.axvline(shown[column].mean(), color="black", linewidth=0.8, linestyle="dashed")
     left.set_yticks(range(len(objects)), objects)
-    left.invert_yaxis()
-    left.legend(fontsize=8, loc="lower left")
-    figure.tight_layout()
+    left.set_ylim(len(objects) - 0.5, -0.5)
+    figure.legend(
+        *left.get_legend_handles_labels(), fontsize=9, loc="lower center", ncols=len(tasks)
+    )
+    figure.tight_layout(rect=(0, 0.03, 1, 1))
     return figure
 
 
