@@ -14,6 +14,8 @@ INK, WARNING = "#202020", "#b00020"
 CAPTION_SHARE, HEADING_SHARE, LEAST_PX = 0.075, 0.11, 12
 # Line height as a multiple of the letter height, and left margin in pixels.
 LINE, MARGIN_PX = 1.5, 5
+# Factor by which letters that do not fit shrink.
+SMALLER = 0.97
 
 
 class Tile(NamedTuple):
@@ -63,8 +65,12 @@ def _text(text: str, width_px: int, letters_px: float, colour: str) -> NDArray[n
     letters_px = max(letters_px, LEAST_PX)
     line = Image.new("RGB", (width_px, round(letters_px * LINE)), "white")
     draw = ImageDraw.Draw(line)
-    length_px = draw.textlength(text, ImageFont.load_default(letters_px))
-    fitting_px = letters_px * min(1.0, (width_px - 2 * MARGIN_PX) / max(length_px, 1.0))
+    # Hinted letters are not as wide as their size says, so the length is measured at every size.
+    while (
+        letters_px > 1
+        and draw.textlength(text, ImageFont.load_default(letters_px)) > width_px - 2 * MARGIN_PX
+    ):
+        letters_px *= SMALLER
     at = MARGIN_PX, line.height / 2
-    draw.text(at, text, fill=colour, font=ImageFont.load_default(fitting_px), anchor="lm")
+    draw.text(at, text, fill=colour, font=ImageFont.load_default(letters_px), anchor="lm")
     return np.asarray(line)
