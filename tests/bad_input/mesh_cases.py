@@ -141,7 +141,7 @@ CASES = [
     mesh(
         "text in an STL", "cup.stl", TEXT_STL.replace(b"vertex -", b"vertex x"), "vertex: 'x0.025'"
     ),
-    mesh("an STL without one `endloop`", "cup.stl", STL_CUT, "facet: 12 begin, but 11"),
+    mesh("an STL without one `endloop`", "cup.stl", STL_CUT, "12 facets begin, but 11"),
     mesh("an STL facet with two corners", "cup.stl", STL_OF_TWO, "loop", "three vertices"),
     mesh("a compressed GLB", "cup.glb", GLB_COMPRESSED, "KHR_draco_mesh_compression"),
     mesh("a GLB with a skeleton", "cup.glb", GLB_WITH_BONES, "skeleton", "without it"),

@@ -62,7 +62,7 @@ CASES = [
     change("a shift used twice", {"tasks": {"wash": {"colour_shift": 10}}}, "is also that of use"),
     change("an unknown task", {"tasks": {"give": {"colour_shift": 1}}}, "tasks.give", "tasks.yaml"),
     change("a range upside down", {"objects": {"variation": {"size": [2, 1]}}}, "2 is above 1"),
-    change("an empty list", {"labels": []}, "labels", "has 0 values, at least 1 are needed"),
+    change("an empty list", {"labels": []}, "labels", "too few values: at least 1 needed"),
     change("too few values", {"predictors": {"hidden": [1, 2]}}, "predictors.hidden", "2 values"),
     change("above the range", {"folds": {"count": 1000}}, "folds.count", "maximum of 100"),
     change("NaN", {"objects": {"scale": float("nan")}}, "objects.scale", "not a finite number"),

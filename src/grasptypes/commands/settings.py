@@ -53,7 +53,5 @@ def check_place(path: Path) -> None:
                 Path(trial, staging_name(name)).mkdir(exist_ok=True)
     except OSError as error:
         long = error.errno == errno.ENAMETOOLONG
-        reason = (
-            "the name is too long" if long else f"{above} is not a folder that can be written to"
-        )
+        reason = "the name is too long" if long else f"{above} is not a writable folder"
         raise InputError(path, "", f"cannot be created: {reason}") from error

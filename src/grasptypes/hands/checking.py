@@ -58,7 +58,7 @@ def _links(hand: Hand) -> Iterator[str]:
     for link in hand.links:
         moments = np.linalg.eigvalsh(link.inertia_kg_m2)
         if moments.min() <= 0 or moments[2] > moments[:2].sum() * 1.01:
-            yield f"link {link.name}: no body has its inertia (principal moments {moments})"
+            yield f"link {link.name}: no rigid body has this inertia (principal moments {moments})"
         if not link.visuals:
             yield f"link {link.name}: has no visual shape: pictures do not show it"
 
@@ -97,7 +97,7 @@ def _finger(hand: Hand, finger: Finger) -> Iterator[str]:
         # A closing joint moves the tip forwards, inwards, or both.
         inwards = np.linalg.norm(before[:2]) - np.linalg.norm(after[:2])
         if max(inwards, after[2] - before[2]) <= 0:
-            yield f"joint {name}: opens finger {finger.name}: turn its axis round"
+            yield f"joint {name}: opens finger {finger.name}: reverse its axis"
     travel = (limits[0, 1] - finger.open[0]) / finger.rates[0, 0]
     ends = finger.open + finger.rates[0] * travel
     past = beyond(ends, limits, tolerance) & (not hand.direct)

@@ -44,14 +44,17 @@ class FingerDescription(Settings):
         count = len(self.joints)
         for key in ("open", "rates", "bend_rad"):
             if len(getattr(self, key)) != count:
-                raise MisplacedError(key, f"needs {count} values, one for each joint")
+                raise MisplacedError(key, f"needs {count} values, one per joint")
         for row, rates in enumerate(self.rates):
             if len(rates) != count:
-                raise MisplacedError(f"rates.{row}", f"needs {count} values, one for each joint")
+                raise MisplacedError(f"rates.{row}", f"needs {count} values, one per joint")
+            key = f"rates.{row}"
             if any(rates[:row]):
-                raise MisplacedError(f"rates.{row}", f"its first {row} joints are stopped: use 0")
+                raise MisplacedError(
+                    key, f"must begin with {'0, ' * row}since these joints have stopped"
+                )
             if rates[row] <= 0:
-                raise MisplacedError(f"rates.{row}", f"joint {row + 1} must close: use more than 0")
+                raise MisplacedError(key, f"must be above 0 for joint {row + 1}, which closes")
         return self
 
 
@@ -200,4 +203,4 @@ class Grips(Settings):
             for index, preshape in enumerate(self.named(name).preshapes):
                 if len(preshape) != count:
                     key = f"{name}.preshapes.{index}"
-                    raise MisplacedError(key, f"needs {count} values, one for each preshape")
+                    raise MisplacedError(key, f"needs one value per preshape ({count})")

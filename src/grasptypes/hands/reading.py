@@ -128,7 +128,7 @@ class _Reader:
 
     def _known(self, name: str, among: Any, key: str, kind: str) -> None:
         if name not in among:
-            message = f"'{name}' is no {kind} of {URDF}; it has {', '.join(among)}"
+            message = f"'{name}' is not a {kind} of {URDF}, which has {', '.join(among)}"
             raise InputError(self._folder / DESCRIPTION, key, message)
 
     def _check_tree(self) -> None:

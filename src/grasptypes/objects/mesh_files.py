@@ -104,4 +104,4 @@ def _check_vertices(path: Path, vertices: NDArray[np.float64], corners: NDArray[
         raise InputError(path, "face", message)
     bad = int((~np.isfinite(vertices).all(axis=1)).sum())
     if bad:
-        raise InputError(path, "", f"{bad} vertices are not finite (NaN or infinite)")
+        raise InputError(path, "", f"{bad} of {count} vertices are not finite (NaN or infinite)")

@@ -58,8 +58,8 @@ def import_model(own: OwnObject, limits: ImportLimits) -> ImportedModel:
     check_volume(path, sum(part.solid.volume() for part in parts), pieces, limits)
     if cavities is not None and own.shell_thickness_m is not None:
         message = (
-            "shell_thickness_m is for a mesh of the outside alone, but this one has a cavity, and "
-            "with it its walls: leave it out"
+            "shell_thickness_m is for meshes of the outside only, but this mesh has a cavity and "
+            "thus walls of its own: leave it out"
         )
         raise InputError(path, "", message)
     # With a given mass any density will do: the inertia is scaled to the mass.

@@ -32,7 +32,7 @@ def read_obj(path: Path, remarks: list[str]) -> PolygonMesh:
             reading.take(kind, words)
         except (ValueError, IndexError) as error:
             text = " ".join([kind, *words])[:60]
-            wanted = "three or more vertices of the file" if kind == "f" else _NUMBERS[kind]
+            wanted = "three or more existing vertices" if kind == "f" else _NUMBERS[kind]
             raise InputError(path, f"line {line}", f"'{text}' needs {wanted}") from error
     return PolygonMesh(
         np.array(reading.vertices, dtype=np.float64).reshape(-1, 3),

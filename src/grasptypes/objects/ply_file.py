@@ -92,7 +92,7 @@ def ply_faces(path: Path, elements: Mapping[str, Element], remarks: list[str]) -
     """
     faces, strips = (_vertex_lists(path, elements, name) for name in ("face", "tristrips"))
     if (faces.sizes < 3).any():
-        raise InputError(path, "face", "one has fewer than three corners")
+        raise InputError(path, "face", "a face has fewer than three corners")
     triangles = _strip_triangles(strips)
     corners = np.concatenate([faces.values.astype(np.int64), triangles.ravel()])
     sizes = np.concatenate([faces.sizes, np.full(len(triangles), 3)])
@@ -149,7 +149,9 @@ def _vertex_lists(path: Path, elements: Mapping[str, Element], name: str) -> Rag
     found = lists.get("vertex_indices", lists.get("vertex_index", none))
     whole = found.values == np.floor(found.values)
     if not whole.all():
-        message = f"a face refers to vertex {found.values[~whole][0]:g}, no whole number"
+        message = (
+            f"a face refers to vertex {found.values[~whole][0]:g}, which is not a whole number"
+        )
         raise InputError(path, name, message)
     return found
 
@@ -230,7 +232,9 @@ def _read_text(path: Path, elements: list[Element], body: bytes) -> None:
                 element.fill(name, values[name], sizes[name])
             except ValueError as error:
                 value = str(error).rpartition(": ")[2].removeprefix("b")
-                raise InputError(path, f"{element.name} {name}", f"{value} is no number") from error
+                raise InputError(
+                    path, f"{element.name} {name}", f"{value} is not a number"
+                ) from error
 
 
 def _read_binary(path: Path, elements: list[Element], body: bytes, order: str) -> None:

@@ -41,7 +41,7 @@ def read_stl(path: Path, remarks: list[str]) -> list[PolygonMesh]:
         message = "is not a complete STL: it is truncated, or another kind of file"
         if b"\0" in content[84:]:
             room = (len(content) - 84) // 50
-            message = f"is not a complete STL: it is to have {faces} triangles, but has {room}"
+            message = f"is not a complete STL: it should have {faces} triangles, but has {room}"
         raise InputError(path, "", message)
     facets = [_read_facets(path, part) for part in _SOLID.sub("\0", text).split("\0")]
     return [mesh for mesh in facets if len(mesh.sizes)]
@@ -55,8 +55,8 @@ def _read_facets(path: Path, text: str) -> PolygonMesh:
         for wanted in ("facet", "loop", "endloop")
     )
     if not len(facets) == len(begins) == len(ends) == words.count("endfacet"):
-        message = f"{len(facets)} begin, but {len(ends)} are complete: the file is damaged"
-        raise InputError(path, "facet", message)
+        message = f"{len(facets)} facets begin, but {len(ends)} are complete: the file is damaged"
+        raise InputError(path, "", message)
     numbers: list[str] = []
     sizes = []
     for begin, end in zip(begins, ends, strict=True):
@@ -70,7 +70,7 @@ def _read_facets(path: Path, text: str) -> PolygonMesh:
     try:
         return _mesh(np.array(numbers, dtype=np.float64).reshape(-1, 3), sizes)
     except ValueError as error:
-        message = f"{str(error).rpartition(': ')[2]} is no number"
+        message = f"{str(error).rpartition(': ')[2]} is not a number"
         raise InputError(path, "vertex", message) from error
 
 

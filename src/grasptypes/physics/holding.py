@@ -29,9 +29,9 @@ class HoldResult(NamedTuple):
 
     dropped: bool
     moved_m: float
-    """Largest motion of the object's centre of mass in the hand after the squeeze."""
+    """Largest motion of the object's centre of mass in the hand since the fingers touched it."""
     turned_rad: float
-    """Largest rotation of the object in the hand after the squeeze."""
+    """Largest rotation of the object in the hand since the fingers touched it."""
     T_object_hand: Array
     """(4, 4) at the end of the test."""
     joint_positions: Array
@@ -53,9 +53,10 @@ def hold(
 ) -> HoldResult:
     """Squeeze the object and hold it, while gravity acts along -z or, with `shake`, from six sides.
 
-    The hand does not let go in between, as when an arm turns. Gravity along -z comes last, so that
-    the hand is at rest then. Whether the object is lost under the load does not decide about the
-    result: the load acts after all directions.
+    Motion counts from where the fingers touched the object, so that closing must not push it out of
+    the hand either. The hand does not let go in between, as when an arm turns. Gravity along -z
+    comes last, so that the hand is at rest then. Whether the object is lost under the load does not
+    decide about the result: the load acts after all directions.
 
     Args:
         T_object_hand: (4, 4) hand in the object frame.
@@ -65,7 +66,7 @@ def hold(
     """
     settings, R = engine.settings, T_object_hand[:3, :3].T
     motors = squeeze(engine, T_object_hand, joint_positions, stages)
-    start = engine.T_hand_object()
+    start = inverse(T_object_hand)
     directions = (*DIRECTIONS[1:], DIRECTIONS[0]) if settings.shake else DIRECTIONS[:1]
     moved, turned = 0.0, 0.0
     for direction in directions:

@@ -170,7 +170,7 @@ class Planner:
             allowed = f"must be {low:g} to {high:g} kg"
             if not source:
                 raise InputError("--mass-kg", f"{mass_kg:g}", allowed)
-            said = f"is {mass_kg:.3g} kg (as a solid of water, unless it is given); {allowed}"
+            said = f"is {mass_kg:.3g} kg (that of a solid of water by default); {allowed}"
             raise InputError(source, "--mass-kg", said)
         if not types and self._predictor is None:
             from grasptypes.predictors.prediction import Predictor

@@ -60,10 +60,10 @@ def read_background(colour: str) -> tuple[int, int, int]:
     try:
         values = ImageColor.getrgb(colour)
     except ValueError as error:
-        message = "is no colour: use a name (white) or a code (#ffffff)"
+        message = "is not a colour: use a name (white) or a code (#ffffff)"
         raise InputError("--background", colour, message) from error
     if len(values) != 3:
-        raise InputError("--background", colour, "has to be opaque")
+        raise InputError("--background", colour, "must be opaque")
     return values
 
 

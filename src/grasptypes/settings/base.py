@@ -34,14 +34,14 @@ _PROBLEMS = {
     "bool_type": "is neither true nor false",
     "string_type": "is not text",
     "string_too_short": "is empty",
-    "greater_than_equal": "is less than the minimum of {ge:g}",
+    "greater_than_equal": "is below the minimum of {ge:g}",
     "greater_than": "is not greater than {gt:g}",
-    "less_than_equal": "is greater than the maximum of {le:g}",
+    "less_than_equal": "is above the maximum of {le:g}",
     "less_than": "is not less than {lt:g}",
     "literal_error": "is not one of {expected}",
     "tuple_type": "is not a list",
-    "too_short": "has {actual_length} values, at least {min_length} are needed",
-    "too_long": "has {actual_length} values, at most {max_length} are allowed",
+    "too_short": "has too few values: at least {min_length} needed",
+    "too_long": "has too many values: at most {max_length} allowed",
     "dict_type": "is not a mapping",
     "model_type": "is not a mapping",
     "string_pattern_mismatch": "is invalid: use lower-case letters, digits and underscores",
@@ -124,7 +124,7 @@ def explained(error: ValidationError, section: type[Settings], path: str | Path)
     keys = [part for part in first["loc"] if part != "[key]"]
     problem, context = first["type"], first.get("ctx", {})
     if problem == "missing" and isinstance(keys[-1], int):
-        said = f"has {keys.pop()} values, more are needed"
+        said = f"has only {keys.pop()} values: more are needed"
     elif problem in ("extra_forbidden", "missing"):
         *keys, name = keys
         owner = _described(section, keys)[0]

@@ -50,7 +50,7 @@ _TRIAL_COLUMNS = {
     "pregrasp_pose": pa.Column(object, _POSE, description="3x4 of the open hand before"),
     "pregrasp_joints": pa.Column(object, description="joint positions there"),
     "penetration_m": pa.Column(float, pa.Check.ge(0), description="hand and object in each other"),
-    "moved_m": pa.Column(float, pa.Check.ge(0), description="object in the hand, under gravity"),
+    "moved_m": pa.Column(float, pa.Check.ge(0), description="object in the hand, once touched"),
     "turned_rad": pa.Column(float, pa.Check.ge(0), description="object in the hand"),
     "grip_deviation": pa.Column(
         float, pa.Check.ge(0), description="of that hand's shape from the person's grip"

@@ -19,8 +19,8 @@ def test_targets_that_could_not_be_written_are_rejected(tmp_path):
     for target, reason in (
         (tmp_path / "picture.jpg", "must end in .png"),
         (tmp_path / "folder.png", "is a folder"),
-        (tmp_path / "file" / "picture.png", "file is not a folder that can be written to"),
-        (Path("/proc/new/picture.png"), "/proc is not a folder that can be written to"),
+        (tmp_path / "file" / "picture.png", "file is not a writable folder"),
+        (Path("/proc/new/picture.png"), "/proc is not a writable folder"),
     ):
         with pytest.raises(InputError, match=reason):
             check_target(target, ".png")

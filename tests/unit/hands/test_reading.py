@@ -308,12 +308,12 @@ def refused(folder: Path) -> str:
     [
         (
             index(joints=["index_1", "index_2", "knuckle"]),
-            "hand.yaml: fingers.index.joints: 'knuckle' is no joint of hand.urdf",
+            "hand.yaml: fingers.index.joints: 'knuckle' is not a joint of hand.urdf",
             "index_3",
         ),
         (
             {"preshape": {"turn": {"knuckle": 1.0}}},
-            "hand.yaml: preshape.turn: 'knuckle' is no joint of hand.urdf",
+            "hand.yaml: preshape.turn: 'knuckle' is not a joint of hand.urdf",
             "slide",
         ),
         (
@@ -343,13 +343,13 @@ def refused(folder: Path) -> str:
         ),
         (
             index(rates=[[1.0, 0.8, 0.5], [0.1, 1.0, 0.6], [0.0, 0.0, 1.0]]),
-            "hand.yaml: fingers.index.rates.1: its first 1 joints are stopped",
-            "use 0",
+            "hand.yaml: fingers.index.rates.1: must begin with 0",
+            "stopped",
         ),
         (
             index(rates=[[1.0, 0.8, 0.5], [0.0, 1.0, 0.6], [0.0, 0.0, 0.0]]),
-            "hand.yaml: fingers.index.rates.2: joint 3 must close",
-            "more than 0",
+            "hand.yaml: fingers.index.rates.2: must be above 0 for joint 3",
+            "closes",
         ),
         (index(open=[0.0]), "hand.yaml: fingers.index.open: needs 3 values", ""),
         (index(bend_rad=[0.0] * 4), "hand.yaml: fingers.index.bend_rad: needs 3 values", ""),
@@ -361,12 +361,12 @@ def refused(folder: Path) -> str:
         (index(thumb=True), "hand.yaml: fingers: needs fingers with `thumb: true`", "without"),
         (
             {"palm": {"link": "forearm"}},
-            "hand.yaml: palm.link: 'forearm' is no link of hand.urdf",
+            "hand.yaml: palm.link: 'forearm' is not a link of hand.urdf",
             "wrist",
         ),
         (
             {"ignored_collisions": [["wrist", "pad"]]},
-            "hand.yaml: ignored_collisions.0: 'pad' is no moving link",
+            "hand.yaml: ignored_collisions.0: 'pad' is not a moving link",
             "index_3",
         ),
         ({"drive": "hydraulic"}, "hand.yaml: drive: 'hydraulic' is not one of", "direct"),
@@ -424,15 +424,18 @@ def test_a_mistake_in_the_urdf_is_named(tmp_path, urdf, message) -> None:
     [
         (
             {"wrap": {"preshapes": [[0.0], [0.1, 0.2]]}},
-            "grips.yaml: wrap.preshapes.1: needs 1 values, one for each preshape",
+            "grips.yaml: wrap.preshapes.1: needs one value per preshape (1)",
         ),
-        ({"pinch": {"preshapes": [[]]}}, "grips.yaml: pinch.preshapes.0: needs 1 values"),
+        (
+            {"pinch": {"preshapes": [[]]}},
+            "grips.yaml: pinch.preshapes.0: needs one value per preshape (1)",
+        ),
         (
             {"instead": {"rim": "enclose"}},
             "grips.yaml: instead: 'rim' is not described: name another one for it (wrap, pinch)",
         ),
         ({"instead": {"wrap": "pinch"}}, "grips.yaml: instead.wrap: the grip is described, too"),
-        ({"start_m": 0.0}, "grips.yaml: start_m: 0.0 is less than the minimum of 0.1"),
+        ({"start_m": 0.0}, "grips.yaml: start_m: 0.0 is below the minimum of 0.1"),
     ],
 )
 def test_a_mistake_in_the_grips_is_named(tmp_path, changes, message) -> None:

@@ -141,7 +141,7 @@ def test_an_stl_may_have_some_bytes_at_its_end(tmp_path, spare):
 def test_an_stl_is_never_read_in_part(tmp_path, stated):
     whole = binary_stl(V, T)
     (tmp_path / "a.stl").write_bytes(whole[:80] + stated.to_bytes(4, "little") + whole[84:])
-    with pytest.raises(InputError, match=f"to have {stated} triangles, but has {len(T)}"):
+    with pytest.raises(InputError, match=f"should have {stated} triangles, but has {len(T)}"):
         read_meshes(tmp_path / "a.stl", LIMITS, [])
 
 

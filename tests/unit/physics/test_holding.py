@@ -9,6 +9,7 @@ from tests.unit.settings import PARAMS
 from grasptypes.physics.engines import engine
 from grasptypes.physics.holding import hold, hold_in_all
 from grasptypes.physics.loads import TaskLoad
+from grasptypes.poses import inverse
 
 SETTINGS = PARAMS.physics.test.changed(shake=False)
 # Long enough to tell what is held from what is not.
@@ -132,6 +133,15 @@ def test_a_grasp_that_only_carries_from_below_is_shaken_off(body) -> None:
         assert not hold(world, below, wide_open).dropped
     with engine("mujoco", BARRETT, body, STILL.changed(shake=True)) as world:
         assert hold(world, below, wide_open).dropped
+
+
+def test_motion_counts_from_the_touching_hand(body) -> None:
+    with engine("mujoco", BARRETT, body, STILL.changed(gravity_m_s2=0.0)) as world:
+        held = hold(world, *OTHER)
+    centre_m, touching_m = (inverse(T)[:3, 3] for T in (held.T_object_hand, OTHER[0]))
+    moved_m = np.linalg.norm(centre_m - touching_m)
+    assert moved_m > 0.0005
+    assert held.moved_m >= moved_m - 1e-9
 
 
 def test_a_load_that_is_too_large_is_noted_and_changes_nothing_else(body) -> None:
