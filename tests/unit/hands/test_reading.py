@@ -304,87 +304,23 @@ def refused(folder: Path) -> str:
 
 
 @pytest.mark.parametrize(
-    ("changes", "start", "hint"),
+    ("changes", "message"),
     [
-        (
-            index(joints=["index_1", "index_2", "knuckle"]),
-            "hand.yaml: fingers.index.joints: 'knuckle' is not a joint of hand.urdf",
-            "index_3",
-        ),
-        (
-            {"preshape": {"turn": {"knuckle": 1.0}}},
-            "hand.yaml: preshape.turn: 'knuckle' is not a joint of hand.urdf",
-            "slide",
-        ),
-        (
-            index(joints=["index_1", "index_2", "index_2"]),
-            "hand.yaml: fingers.index.joints: 'index_2' is listed twice",
-            "",
-        ),
-        (
-            index(joints=["index_1", "index_2", "slide"]),
-            "hand.yaml: fingers.thumb.joints: 'slide' already belongs to fingers.index.joints",
-            "",
-        ),
         (
             index(joints=["index_1", "index_2", "turn"]),
             "hand.yaml: fingers.index.joints: 'turn' already belongs to preshape.turn",
-            "",
-        ),
-        (
-            index(rates=[[1.0, 0.8], [0.0, 1.0]]),
-            "hand.yaml: fingers.index.rates: needs 3 values",
-            "",
         ),
         (
             index(rates=[[1.0, 0.8, 0.5], [0.0, 1.0], [0.0, 0.0, 1.0]]),
             "hand.yaml: fingers.index.rates.1: needs 3 values",
-            "",
         ),
-        (
-            index(rates=[[1.0, 0.8, 0.5], [0.1, 1.0, 0.6], [0.0, 0.0, 1.0]]),
-            "hand.yaml: fingers.index.rates.1: must begin with 0",
-            "stopped",
-        ),
-        (
-            index(rates=[[1.0, 0.8, 0.5], [0.0, 1.0, 0.6], [0.0, 0.0, 0.0]]),
-            "hand.yaml: fingers.index.rates.2: must be above 0 for joint 3",
-            "closes",
-        ),
-        (index(open=[0.0]), "hand.yaml: fingers.index.open: needs 3 values", ""),
-        (index(bend_rad=[0.0] * 4), "hand.yaml: fingers.index.bend_rad: needs 3 values", ""),
-        (
-            {"fingers": {"thumb": {"thumb": False}}},
-            "hand.yaml: fingers: needs fingers with `thumb: true`",
-            "",
-        ),
-        (index(thumb=True), "hand.yaml: fingers: needs fingers with `thumb: true`", "without"),
-        (
-            {"palm": {"link": "forearm"}},
-            "hand.yaml: palm.link: 'forearm' is not a link of hand.urdf",
-            "wrist",
-        ),
-        (
-            {"ignored_collisions": [["wrist", "pad"]]},
-            "hand.yaml: ignored_collisions.0: 'pad' is not a moving link",
-            "index_3",
-        ),
-        ({"drive": "hydraulic"}, "hand.yaml: drive: 'hydraulic' is not one of", "direct"),
-        ({"colour": "red"}, "hand.yaml: 'colour' is not a known key", "fingers"),
+        (index(bend_rad=[0.0] * 4), "hand.yaml: fingers.index.bend_rad: needs 3 values"),
+        (index(thumb=True), "hand.yaml: fingers: needs fingers with `thumb: true`"),
     ],
 )
-def test_a_mistake_in_the_description_is_named(tmp_path, changes, start, hint) -> None:
-    message = refused(write_hand(tmp_path / "hand", changes))
-    assert message.startswith(start)
-    assert hint in message
-
-
-def test_a_joint_that_nobody_describes_is_named(tmp_path) -> None:
-    spare = """<link name="spare" /><joint name="spare" type="revolute"><parent link="wrist" />
-        <child link="spare" /><axis xyz="1 0 0" />
-        <limit lower="0" upper="1" effort="1" velocity="1" /></joint></robot>"""
-    message = refused(write_hand(tmp_path / "hand", urdf=URDF.replace("</robot>", spare)))
-    assert message.startswith("hand.yaml: does not mention spare: ")
+def test_a_mistake_in_the_description_is_named(tmp_path, changes, message) -> None:
+    """Here and below, of the kinds that tests/bad_input does not try."""
+    assert refused(write_hand(tmp_path / "hand", changes)).startswith(message)
 
 
 @pytest.mark.parametrize(
@@ -392,29 +328,10 @@ def test_a_joint_that_nobody_describes_is_named(tmp_path) -> None:
     [
         (without("limit", "index_2"), "hand.urdf: joint index_2: its limit has no lower"),
         (URDF.replace('upper="1.5"', ""), "hand.urdf: joint index_1: its limit has no upper"),
-        (URDF.replace('effort="20"', ""), "hand.urdf: joint slide: its limit has no effort"),
-        (
-            URDF.replace('upper="1.5"', 'upper="-1.5"'),
-            "hand.urdf: joint index_1: its lower limit is not below the upper",
-        ),
-        (
-            URDF.replace('<axis xyz="1 0 0" /><limit lower="0" upper="1"', '<axis xyz="0 0 0" />'
-                         '<limit lower="0" upper="1"'),
-            "hand.urdf: joint index_3: its axis has no length",
-        ),
-        (
-            URDF.replace('"turn" type="revolute"', '"turn" type="continuous"'),
-            "hand.urdf: joint turn: is continuous",
-        ),
         (without("inertial", "thumb"), "hand.urdf: link thumb: has no mass"),
         (without("collision", "thumb"), "hand.urdf: link thumb: has no collision shape"),
-        (
-            URDF.replace("meshes/bar.stl", "meshes/beam.stl"),
-            "hand.urdf: link index_1: meshes/beam.stl: no such file",
-        ),
-        ("<robot", "hand.urdf: cannot be read as a URDF: "),
     ],
-)  # fmt: skip
+)
 def test_a_mistake_in_the_urdf_is_named(tmp_path, urdf, message) -> None:
     assert refused(write_hand(tmp_path / "hand", urdf=urdf)).startswith(message)
 
@@ -422,14 +339,6 @@ def test_a_mistake_in_the_urdf_is_named(tmp_path, urdf, message) -> None:
 @pytest.mark.parametrize(
     ("changes", "message"),
     [
-        (
-            {"wrap": {"preshapes": [[0.0], [0.1, 0.2]]}},
-            "grips.yaml: wrap.preshapes.1: needs one value per preshape (1)",
-        ),
-        (
-            {"pinch": {"preshapes": [[]]}},
-            "grips.yaml: pinch.preshapes.0: needs one value per preshape (1)",
-        ),
         (
             {"instead": {"rim": "enclose"}},
             "grips.yaml: instead: 'rim' is not described: name another one for it (wrap, pinch)",
@@ -440,11 +349,6 @@ def test_a_mistake_in_the_urdf_is_named(tmp_path, urdf, message) -> None:
 )
 def test_a_mistake_in_the_grips_is_named(tmp_path, changes, message) -> None:
     assert refused(write_hand(tmp_path / "hand", grips=changes)).startswith(message)
-
-
-def test_a_missing_urdf_is_named(tmp_path) -> None:
-    (write_hand(tmp_path / "hand") / "hand.urdf").unlink()
-    assert refused(tmp_path / "hand") == "hand.urdf: no such file"
 
 
 def test_an_unknown_hand_is_named_with_those_that_are_known() -> None:
