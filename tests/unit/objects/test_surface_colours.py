@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -125,20 +127,43 @@ def test_missing_texture_is_mentioned(tmp_path):
     assert repair == "the texture of the material 'a' is missing: a.png: no such file"
 
 
+def textured_glb(folder: Path, change: Callable[[dict[str, Any]], object]) -> ImportedModel:
+    """The bracket with a texture across its x and y, half as bright, and its JSON changed."""
+    write_texture(folder / "a.png")
+    with Image.open(folder / "a.png") as image:
+        material = PBRMaterial(baseColorTexture=image, baseColorFactor=[128, 128, 128, 255])
+        mesh = SPLIT.copy()
+        places = mesh.vertices[:, :2] / (0.06, 0.05)
+        mesh.visual = trimesh.visual.TextureVisuals(uv=places, material=material)
+        scene = trimesh.Scene(mesh)
+        content = trimesh.exchange.gltf.export_glb(scene, tree_postprocessor=change)
+    (folder / "a.glb").write_bytes(content)
+    return imported(folder / "a.glb")
+
+
 def test_texture_and_factor_of_a_glb(tmp_path):
     """The factor is linear, the texture sRGB."""
-    write_texture(tmp_path / "a.png")
-    material = PBRMaterial(
-        baseColorTexture=Image.open(tmp_path / "a.png"), baseColorFactor=[128, 128, 128, 255]
-    )
-    mesh = SPLIT.copy()
-    mesh.visual = trimesh.visual.TextureVisuals(
-        uv=mesh.vertices[:, :2] / (0.06, 0.05), material=material
-    )
-    mesh.export(tmp_path / "a.glb")
     half = float(encoded(np.array(128 / 255)))
-    shown = colours_of(imported(tmp_path / "a.glb"), MIDDLES)
-    np.testing.assert_allclose(shown, half * np.array(QUARTERS), atol=1e-9)
+    found = textured_glb(tmp_path, lambda tree: None)
+    assert found.repairs == ()
+    np.testing.assert_allclose(colours_of(found, MIDDLES), half * np.array(QUARTERS), atol=1e-9)
+
+
+def move_texture(tree: dict[str, Any]) -> None:
+    texture = tree["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"]
+    texture["extensions"] = {"KHR_texture_transform": {"offset": [0.5, 0]}}
+
+
+@pytest.mark.parametrize(
+    ("change", "repair"),
+    [
+        (move_texture, "textures may be misplaced"),
+        (lambda tree: tree["images"][0].update(bufferView=0), "cannot be read as an image"),
+    ],
+)
+def test_textures_that_are_not_shown_as_stated_are_mentioned(tmp_path, change, repair):
+    (said,) = textured_glb(tmp_path, change).repairs
+    assert repair in said
 
 
 def vertex_colours(path: Path) -> None:
