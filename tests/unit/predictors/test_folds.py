@@ -8,13 +8,22 @@ from grasptypes.errors import InputError
 from grasptypes.labels.samples import COUNTS, samples_from_counts
 from grasptypes.predictors.examples import assemble
 from grasptypes.predictors.features import NO_TASK
-from grasptypes.predictors.folds import split
+from grasptypes.predictors.folds import FOLD_SCHEMA, split
 from grasptypes.predictors.members import members_by_group
 from grasptypes.predictors.predictor import VARIANTS
 from grasptypes.seeds import rng
 
 VIEWS = {"apple": 13, "mug": 10, "pan": 11}
 TASKS = ["use", "handoff", "show"]
+
+
+def test_every_picture_is_tested_once_and_every_fold_has_its_share():
+    folds = FOLD_SCHEMA.validate(split(VIEWS, 5, seed=0))
+    assert folds.groupby("object").size().to_dict() == VIEWS
+    shares = folds.groupby(["object", "fold"]).size().unstack()
+    assert (shares.max(axis=1) - shares.min(axis=1) <= 1).all()
+    whole = folds.groupby("fold").size()
+    assert whole.max() - whole.min() <= 1
 
 
 def test_folds_of_an_object_do_not_depend_on_the_others():
@@ -45,6 +54,10 @@ def test_no_picture_is_in_train_and_test(model):
         assert len(member.train) + len(member.test) == len(pictures)
     per_picture = examples.index.groupby(["object", "view"])["fold"].nunique()
     assert (per_picture == 1).all()
+
+
+def test_as_many_folds_as_pictures_leave_one_picture_out():
+    assert split({"mug": 10}, 10, seed=0)["fold"].nunique() == 10
 
 
 def test_more_folds_than_pictures():
