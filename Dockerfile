@@ -19,7 +19,7 @@ RUN [ -z "$TORCH_INDEX" ] || { python3 -m venv .venv \
 
 # Environment files first, so that a changed parameter or rule does not reinstall it.
 ENV PIP_NO_CACHE_DIR=1
-COPY --chown=grasptypes Makefile pyproject.toml README.md LICENSE ./
+COPY --chown=grasptypes Makefile hatch_build.py pyproject.toml README.md LICENSE ./
 COPY --chown=grasptypes workflow/envs workflow/envs
 COPY --chown=grasptypes src src
 RUN make setup

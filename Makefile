@@ -113,4 +113,4 @@ lock: setup ## write requirements.lock anew from the ranges of pyproject.toml
 	    --no-emit-index-url --no-emit-find-links --no-emit-trusted-host -o build/all.lock pyproject.toml
 	{ echo "# Written by make lock. The CUDA libraries are left out: torch itself pins the ones its build needs,"; \
 	  echo "# and its CPU build needs none."; \
-	  grep -vE '^(nvidia|cuda|triton)|^$$|^#' build/all.lock; } > requirements.lock
+	  grep -vE '^(nvidia|cuda|triton|grasptypes)|^$$|^#' build/all.lock; } > requirements.lock
