@@ -19,6 +19,7 @@ already keeps its own settings; to have the same, start it with
 
 from importlib import import_module
 from importlib.metadata import version
+from importlib.util import find_spec
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
@@ -57,6 +58,8 @@ _HOMES = {
     "label": "labels.grasp",
     "load_object": "objects.loading",
 }
+# Libraries that a name needs, besides those that come with the package.
+_EXTRAS = {"Plan": "plan", "Planner": "plan", "Answer": "predict", "Predictor": "predict"}
 
 
 def __getattr__(name: str) -> Any:
@@ -64,11 +67,16 @@ def __getattr__(name: str) -> Any:
         return version("grasptypes")
     if name not in _HOMES:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    if name in ("Planner", "Predictor"):
-        # Mesa and torch's compiler each bring an LLVM, and a process that draws and predicts
-        # crashes when torch's comes second.
-        import_module("torchvision")
-    return getattr(import_module(f"{__name__}.{_HOMES[name]}"), name)
+    try:
+        if name in ("Planner", "Predictor") and find_spec("torchvision"):
+            # Mesa and torch's compiler each bring an LLVM, and a process that draws and predicts
+            # crashes when torch's comes second.
+            import_module("torchvision")
+        return getattr(import_module(f"{__name__}.{_HOMES[name]}"), name)
+    except ModuleNotFoundError as error:
+        from grasptypes.extras import missing_extra
+
+        raise missing_extra(error, _EXTRAS.get(name, "")) from error
 
 
 def __dir__() -> list[str]:

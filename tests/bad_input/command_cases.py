@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 from case import ROOT, Case, Content, library
+from mesh_cases import STL
 from picture_cases import WHOLE, command
 from weights_cases import Code
 
@@ -39,6 +40,17 @@ def exchanged(what: str, name: str, content: Content, read: Callable, *names: st
     )
 
 
+def cells(configuration: str) -> str:
+    """A table of one grasp."""
+    return f'HandConfiguration\n"{configuration}"\n'
+
+
+def labelled(what: str, table: Content, *names: str, hand: str = "barrett") -> Case:
+    """A call of `grasptypes label` with a good mesh."""
+    words = ("label", "grasps.csv", "--object", "cup.stl", "--hand", hand)
+    return Case("label", what, {"cup.stl": STL, "grasps.csv": table}, command(*words), names)
+
+
 def with_code(path: Path) -> None:
     """An array file whose pickle holds code."""
     with path.open("wb") as file:
@@ -47,6 +59,9 @@ def with_code(path: Path) -> None:
         )
         file.write(pickle.dumps(Code()))
 
+
+CONFIGURATIONS = cells("0,1,0,0,0,0,1,0,0,0,0,1,0,0,1,1,1")
+ONE_JOINT = CONFIGURATIONS.replace("ion\n", "ion,spread_1_rad\n").rstrip() + ",0\n"
 
 CASES = [
     asked("no command", (), "arguments are required: COMMAND"),
@@ -84,6 +99,13 @@ CASES = [
     asked("an unknown model", (*ASK, "--model", "e"), "--model: e", "task_vector"),
     asked("unknown labels", (*ASK, "--labels", "../.."), "--labels: ../..", "simulated, published"),
     asked("an untrained model", ASK, f"{MODEL}/predictor.safetensors", "snakemake -j2"),
+    Case(
+        "command",
+        "a folder without models",
+        {"cup.png": WHOLE},
+        command(*ASK),
+        (f"{MODEL}/predictor.safetensors: there is no trained model here", "--folder"),
+    ),
     asked("a damaged card", ASK, "predictor.json", "is not JSON", safetensors=b"", json="{"),
     Case(
         "command",
@@ -92,6 +114,16 @@ CASES = [
         library(lambda changes: copy_checkout(ROOT, "copy", changes), "small.yaml"),
         ("small.yaml", "line 2"),
     ),
+    labelled("a table without grasps", "Index\n1\n", "grasps.csv: HandConfiguration: this column"),
+    labelled("a short configuration", cells("0,1"), "grasps.csv: line 2, HandCon", "needs 17"),
+    labelled("a word in a configuration", cells("0,one"), "line 2, HandCon", "not a number"),
+    labelled(
+        "a pose that is no rotation",
+        cells(",".join(["0"] * 17)),
+        "grasps.csv: line 2, HandConfiguration: its 3x4 pose",
+    ),
+    labelled("the grasps of another hand", CONFIGURATIONS, "needs 20", "--hand", hand="allegro"),
+    labelled("a missing joint", ONE_JOINT, "grasps.csv: spread_2_rad: this column is missing"),
     exchanged("not XML", "world.xml", "<world>", read_world, "not a GraspIt! world"),
     exchanged("a world without a hand", "world.xml", "<world/>", read_world, "one Barrett robot"),
     exchanged("not JSON", "grasps.json", "{", read_grasps, "is not a JSON file"),

@@ -9,12 +9,14 @@ import sys
 import warnings
 from collections.abc import Sequence
 from concurrent.futures.process import BrokenProcessPool
+from importlib.metadata import version
 from typing import NoReturn
 
-from grasptypes.commands import hand, plan, predict
+from grasptypes.commands import hand, label, plan, predict
 from grasptypes.errors import InputError, InputErrors
+from grasptypes.extras import MissingExtraError, missing_extra
 
-COMMANDS = {"predict": predict, "plan": plan, "hand": hand}
+COMMANDS = {"predict": predict, "plan": plan, "label": label, "hand": hand}
 
 
 class _Parser(argparse.ArgumentParser):
@@ -28,6 +30,7 @@ class _Parser(argparse.ArgumentParser):
 def parser() -> argparse.ArgumentParser:
     """All commands and their options."""
     whole = _Parser("grasptypes", description="Which grasp should a robot hand use?")
+    whole.add_argument("--version", action="version", version=f"grasptypes {version('grasptypes')}")
     commands = whole.add_subparsers(dest="command", required=True, metavar="COMMAND")
     for name, module in COMMANDS.items():
         command = commands.add_parser(
@@ -59,6 +62,10 @@ def main(arguments: Sequence[str] | None = None) -> None:
     except BrokenPipeError:  # the reader, such as `head`, has enough
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         sys.exit(141)
+    except MissingExtraError as error:
+        sys.exit(f"error: {error}")
+    except ModuleNotFoundError as error:
+        sys.exit(f"error: {missing_extra(error, args.command)}")
     except OSError as error:
         where = f"{error.filename}: " if error.filename else ""
         sys.exit(f"error: {where}{error.strerror or error}")

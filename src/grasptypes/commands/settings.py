@@ -21,8 +21,8 @@ def add_folder(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--folder",
         type=Path,
-        default=Path(),
-        help="checkout whose params.yaml and models are used (default: the current folder)",
+        help="checkout whose params.yaml and models are used (default: the current folder; "
+        "if it has no params.yaml, the parameters that come with the package)",
     )
 
 

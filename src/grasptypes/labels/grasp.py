@@ -16,7 +16,7 @@ from grasptypes.labels.dataset import VALID
 from grasptypes.labels.grasp_type import Label, explain, measure, thresholds_of
 from grasptypes.objects.object_geometry import ObjectGeometry
 from grasptypes.settings.grasp_types import GraspTypeSettings
-from grasptypes.settings.params import read_params
+from grasptypes.settings.params import checkout_params
 
 Array = NDArray[np.float64]
 
@@ -69,12 +69,13 @@ def label(grasp: Grasp, settings: GraspTypeSettings | None = None) -> Label:
     """The grasp type by the rule, regardless of the physics test, with its explanation.
 
     Args:
-        settings: settings of the rule; by default those in params.yaml in the current folder.
+        settings: settings of the rule; default: from params.yaml in the current folder, else those
+            that come with the package.
 
     Raises:
-        InputError: there are neither settings nor a params.yaml.
+        InputError: params.yaml is invalid.
     """
-    rule = settings or read_params("params.yaml").grasp_types
+    rule = settings or checkout_params().grasp_types
     poses, positions = grasp.T_object_hand.as_matrix()[None], grasp.joint_positions[None]
     states = HandStates(grasp.hand, poses, positions)
     measures = measure(grasp.object.distance_grid, states, rule.contacts)

@@ -124,7 +124,7 @@ def read_published(path: str | Path) -> pd.DataFrame:
         InputError: names the file, and the first bad line and column.
     """
     path = Path(path)
-    cells = _read_cells(path)
+    cells = read_cells(path)
     missing = [name for name, _, _ in COLUMNS if name not in cells.columns]
     if missing:
         raise InputError(path, missing[0], "this column is missing")
@@ -141,7 +141,7 @@ def read_published(path: str | Path) -> pd.DataFrame:
     return table
 
 
-def _read_cells(path: Path) -> pd.DataFrame:
+def read_cells(path: Path) -> pd.DataFrame:
     """All cells as text; a byte order mark is dropped."""
     try:
         text = path.read_text(encoding="utf-8-sig")

@@ -14,7 +14,7 @@ from grasptypes.objects.object_geometry import ObjectGeometry
 from grasptypes.objects.preparation import prepare
 from grasptypes.objects.units import UNITS_M
 from grasptypes.settings.objects import ObjectSettings, OwnObject
-from grasptypes.settings.params import read_params
+from grasptypes.settings.params import checkout_params
 
 WATER_KG_M3 = 1000.0
 
@@ -36,13 +36,14 @@ def load_object(
         unit: its length unit: m, cm, mm or inch.
         mass_kg: mass of the object; default: that of a solid of water.
         name: name of the object; default: that of the file.
-        settings: limits and resolution; default: from params.yaml in the current folder.
+        settings: limits and resolution; default: from params.yaml in the current folder, else
+            those that come with the package.
 
     Raises:
         InputError: the mesh cannot be used; the message says why.
     """
     own = own_object(path, unit, mass_kg)
-    objects = settings or read_params("params.yaml").objects
+    objects = settings or checkout_params().objects
     imported = import_model(own, objects.import_)
     folder = Path(tempfile.mkdtemp(prefix="grasptypes-"))
     try:

@@ -82,7 +82,8 @@ class Planner:
     """Plans grasps of any object.
 
     Args:
-        folder: checkout with the parameters and models.
+        folder: checkout with the parameters and models; default: the current folder, with the
+            parameters that come with the package if it has none.
         hand: a hand that comes with the package, or a folder with one; default: that of the
             parameters.
         jobs: number of processes; the result does not depend on it.
@@ -94,14 +95,14 @@ class Planner:
 
     def __init__(
         self,
-        folder: str | Path = ".",
+        folder: str | Path | None = None,
         *,
         hand: str | Path | None = None,
         jobs: int = 1,
         tell: Callable[[str], None] = lambda line: None,
     ) -> None:
-        self.folder = Path(folder)
-        self.params = checkout_params(self.folder)
+        self.params = checkout_params(folder)
+        self.folder = Path(folder or ".")
         self.hand = load_hand(hand) if hand else load_hand(self.params.hand, self.folder)
         self.jobs = jobs
         self.tell = tell

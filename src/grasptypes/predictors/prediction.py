@@ -24,7 +24,7 @@ from grasptypes.predictors.weights import find_weights
 from grasptypes.renders.mesh_views import mesh_views, views
 from grasptypes.renders.photos import read_photo
 from grasptypes.settings.objects import OwnObject
-from grasptypes.settings.params import Params, checkout_params
+from grasptypes.settings.params import PARAMS, Params, checkout_params
 
 # Label sources of trained models; their folders below models/.
 LABELS = ("simulated", "published")
@@ -84,6 +84,9 @@ def predictor_paths(root: str | Path, labels: str, model: str) -> tuple[Path, Pa
     tensors, card = (Path(root, folder, f"predictor.{end}") for end in ("safetensors", "json"))
     for path in (tensors, card):
         if not path.is_file():
+            if not Path(root, PARAMS).is_file():
+                said = "there is no trained model here; name a checkout with one (--folder)"
+                raise InputError(path, "", said)
             command = f"snakemake -j2 {folder}/predictor.json"
             raise InputError(path, "", f"is not trained yet; run: {command} (or: dvc pull models)")
     return tensors, card
@@ -110,7 +113,7 @@ class Predictor:
     @classmethod
     def load(
         cls,
-        folder: str | Path = ".",
+        folder: str | Path | None = None,
         *,
         labels: str | None = None,
         model: str | None = None,
@@ -119,7 +122,7 @@ class Predictor:
         """Load the model, with the backbone's weights on this machine; without network access.
 
         Args:
-            folder: checkout with the parameters and models.
+            folder: checkout with the parameters and models; default: the current folder.
             labels: label source it was trained on; default: from the parameters.
             model: name, or letter of its row in Table I; default: from the parameters.
             params: parameters to use instead of the checkout's.
@@ -130,7 +133,7 @@ class Predictor:
         import_module("torchvision")  # before OpenGL: see `renders.renderer`
         params = params or checkout_params(folder)
         chosen = labels or params.predict.labels, model or params.predict.model
-        return cls(load_model(folder, *chosen), params)
+        return cls(load_model(folder or ".", *chosen), params)
 
     @property
     def card(self) -> ModelCard:

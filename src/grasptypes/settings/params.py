@@ -29,6 +29,7 @@ from grasptypes.settings.synthesis import SynthesisSettings
 from grasptypes.settings.tasks import TASKS, read_tasks
 from grasptypes.yaml_files import read_yaml
 
+PARAMS = "params.yaml"
 # Name for images and features without a task.
 NO_TASK = "none"
 
@@ -107,13 +108,27 @@ def read_params(path: str | Path) -> Params:
     return Params.check(read_yaml(path), path)
 
 
-def checkout_params(folder: str | Path) -> Params:
+def default_params_path() -> Path:
+    """The parameters that come with the package: in a wheel its own, else those of the checkout."""
+    package = Path(__file__).parents[1]
+    installed = package / PARAMS
+    return installed if installed.is_file() else package.parents[1] / PARAMS
+
+
+def checkout_params(folder: str | Path | None = None) -> Params:
     """The parameters of a checkout.
 
+    Args:
+        folder: root of the checkout; None stands for the current folder or, if it has no
+            parameters, for those that come with the package.
+
     Raises:
-        InputError: parameters are missing or invalid.
+        InputError: the folder has no parameters, or they are invalid.
     """
-    path = Path(folder, "params.yaml")
+    if folder is None:
+        here = Path(PARAMS)
+        return read_params(here if here.is_file() else default_params_path())
+    path = Path(folder, PARAMS)
     if not path.is_file():
         raise InputError(path, "", "no such file; name a checkout as the folder (--folder)")
     return read_params(path)

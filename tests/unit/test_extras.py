@@ -1,0 +1,84 @@
+"""Extras: the core works without them, and a missing one is named in a line."""
+
+import subprocess
+import sys
+import tomllib
+from pathlib import Path
+
+import pytest
+
+from grasptypes.extras import EXTRAS, MissingExtraError, missing_extra
+
+ROOT = Path(__file__).parents[2]
+# What the package and its tests import by another name than that of the distribution.
+DISTRIBUTIONS = {"sklearn": "scikit-learn", "pyrender": "pyrender2"}
+HIDE = """
+import sys
+class Hidden:
+    def find_spec(self, name, path=None, target=None):
+        if name.split(".")[0] in {names!r}:
+            raise ModuleNotFoundError(f"No module named {{name!r}}", name=name)
+sys.meta_path.insert(0, Hidden())
+"""
+OPTIONAL = sorted({module for modules in EXTRAS.values() for module in modules})
+
+
+def without(modules: list[str], code: str, folder: Path) -> subprocess.CompletedProcess[str]:
+    """Run Python in which some modules are not installed."""
+    code = HIDE.format(names=set(modules)) + code
+    return subprocess.run(
+        [sys.executable, "-c", code], capture_output=True, text=True, check=False, cwd=folder
+    )
+
+
+def command(*words: str) -> str:
+    return f"from grasptypes.__main__ import main; main({list(words)!r})"
+
+
+def test_every_module_of_an_extra_is_a_requirement_of_it() -> None:
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
+    for extra, modules in EXTRAS.items():
+        stated = " ".join(project["optional-dependencies"][extra])
+        for module in modules:
+            name = DISTRIBUTIONS.get(module, module).replace("_", "-")
+            assert f"{name}=" in stated or f"{name}>" in stated, (extra, module)
+
+
+def test_the_core_needs_no_extra(tmp_path: Path) -> None:
+    code = """
+import grasptypes
+from grasptypes.labels.dataset import dataset_schema
+grasptypes.label, grasptypes.load_object, grasptypes.GRASP_TYPES, grasptypes.Grasp
+"""
+    for what in (code, command("hand", "check", "allegro")):
+        done = without(OPTIONAL, what, tmp_path)
+        assert done.returncode == 0, done.stderr
+
+
+@pytest.mark.parametrize(
+    ("words", "extra"),
+    [
+        (("plan", "--object", "x.stl", "--task", "use", "--type", "Precision"), "plan"),
+        (("predict", "--object", "x.stl", "--task", "use"), "predict"),
+        (("hand", "check", "barrett", "--picture", "x.png"), "plan"),
+    ],
+)
+def test_a_command_names_the_extra_that_it_lacks(
+    words: tuple[str, ...], extra: str, tmp_path: Path
+) -> None:
+    done = without(OPTIONAL, command(*words), tmp_path)
+    assert done.returncode == 1
+    assert done.stderr.count("\n") == 1
+    assert done.stderr.endswith(f"pip install 'grasptypes[{extra}]'\n")
+
+
+def test_the_library_names_the_extra_that_it_lacks(tmp_path: Path) -> None:
+    code = "import grasptypes\ngrasptypes.Predictor"
+    done = without(OPTIONAL, code, tmp_path)
+    assert "pip install 'grasptypes[predict]'" in done.stderr.splitlines()[-1]
+
+
+def test_another_failed_import_is_a_bug() -> None:
+    with pytest.raises(ModuleNotFoundError, match="gone"):
+        missing_extra(ModuleNotFoundError("gone", name="grasptypes.gone"))
+    assert isinstance(missing_extra(ModuleNotFoundError(name="torch.nn")), MissingExtraError)
