@@ -114,6 +114,7 @@ rule results:
         rules.summarise_scores.output,
         expand(rules.picture_grasps.output, object=OBJECTS),
         rules.plot_grasps.output,
+        rules.show_grasps.output,
         rules.plot_rejected_grasps.output,
         rules.plot_sessions.output,
         rules.plot_label_tree.output,
@@ -135,7 +136,7 @@ rule all:
 # What `make report` shows: all results, and those of the other targets if they are complete.
 EXTRAS = [rules.evaluate_labels, rules.replay_grasps, rules.compare_shapes]
 EXTRAS += [rules.tabulate_generalisation, rules.compare_plans, rules.tabulate_robustness]
-EXTRAS += [rules.show_grasps]
+EXTRAS += [rules.film_grasps]
 
 
 rule shown:

@@ -45,6 +45,30 @@ rule plot_grasps:
         "../scripts/plot_grasps.py"
 
 
+rule show_grasps:
+    input:
+        dataset="data/grasps.csv",
+        grasps=expand(rules.synthesize_grasps.output.grasps, object=OBJECTS, task=TASKS),
+        maps=expand(rules.map_contacts.output, object=OBJECTS, task=TASKS),
+        visuals=expand(rules.prepare_object.output.visual, object=OBJECTS),
+        surfaces=expand(rules.prepare_object.output.surface, object=OBJECTS),
+    output:
+        page=report(
+            "reports/grasps.html",
+            caption="../report/grasps.rst",
+            category="Grasps",
+            labels={"subject": "all grasps in 3D", "kind": "page"},
+        ),
+    params:
+        hand=hand_parameter(config["hand"]),
+        page=hashes([f"{workflow.basedir}/src/grasptypes/viewer/{name}" for name in PAGE_FILES]),
+        code=script_hash("show_grasps"),
+    message:
+        "Writing the page of all grasps"
+    script:
+        "../scripts/show_grasps.py"
+
+
 rule plot_rejected_grasps:
     input:
         attempts=expand(rules.synthesize_grasps.output.attempts, object=OBJECTS, task=TASKS),

@@ -56,7 +56,7 @@ rule tabulate_robustness:
         "../scripts/tabulate_robustness.py"
 
 
-rule show_grasps:
+rule film_grasps:
     input:
         grasps=rules.label_grasps.output.grasps,
         tests=rules.tabulate_robustness.output.grasps,
@@ -86,8 +86,8 @@ rule show_grasps:
         film=config["robustness"]["film"],
         gallery=config["gallery"],
         renders=settings("renders", "views", "sheet"),
-        code=script_hash("show_grasps"),
+        code=script_hash("film_grasps"),
     message:
         "Showing a grasp that holds, one that is lost, and the worst ones"
     script:
-        "../scripts/show_grasps.py"
+        "../scripts/film_grasps.py"

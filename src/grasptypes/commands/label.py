@@ -1,6 +1,6 @@
 """Label grasps of a mesh with their types, and explain each label.
 
-The label follows from where the hand is and how it is closed; whether the grasp holds is not tested.
+The label follows from where the hand is and how it is closed; physics is not tested.
 """
 
 from __future__ import annotations

@@ -64,13 +64,14 @@ def load_parts(path: str | Path) -> list[Part]:
         if isinstance(mesh, trimesh.Trimesh) and len(mesh.faces):
             placed = mesh.copy().apply_transform(T_object_node)
             placed.visual = mesh.visual  # its copy has no vertex colours
-            grouped.setdefault(_material(mesh), []).append(placed)
+            grouped.setdefault(material_of(mesh), []).append(placed)
     if not grouped:
         raise InputError(path, "", "has no faces")
     return [_part(material, meshes) for material, meshes in grouped.items()]
 
 
-def _material(mesh: trimesh.Trimesh) -> tuple[float, ...]:
+def material_of(mesh: trimesh.Trimesh) -> tuple[float, ...]:
+    """Base colour (linear RGB), metallic and roughness factors of a mesh, each 0 to 1."""
     material = getattr(mesh.visual, "material", None)
     if not isinstance(material, trimesh.visual.material.PBRMaterial):
         plain = getattr(mesh.visual, "main_color", np.array([180, 180, 180]))

@@ -1,0 +1,60 @@
+"""Show grasps in the browser: of an object, a table or a plan.
+
+The page is served on 127.0.0.1 until Ctrl-C, or written to a file that opens without a network.
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+import webbrowser
+from pathlib import Path
+
+from grasptypes.commands.settings import add_folder, check_target, printable
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """The options of `view`."""
+    parser.add_argument(
+        "what",
+        help="an object of the dataset, such as mug; a CSV of grasps beside its objects, such as "
+        "data/grasps.csv; or the folder of a plan",
+    )
+    parser.add_argument(
+        "--hand",
+        help="name of a hand, or folder with one (default: the plan's, or in params.yaml)",
+    )
+    parser.add_argument("--output", type=Path, help="HTML file to write instead of serving it")
+    parser.add_argument("--port", type=int, default=0, help="port of the page (default: any)")
+    parser.add_argument("--no-browser", action="store_true", help="print the address only")
+    add_folder(parser)
+
+
+def run(args: argparse.Namespace) -> str:
+    """Write the page, or serve it until Ctrl-C; returns the text to print.
+
+    Raises:
+        InputError: what is asked for cannot be shown; nothing is written.
+    """
+    if args.output:
+        check_target(args.output, ".html")
+
+    from grasptypes.files import write_text
+    from grasptypes.viewer.grasp_views import load_views
+    from grasptypes.viewer.page import page
+    from grasptypes.viewer.serving import page_server
+
+    views = load_views(args.what, args.folder, args.hand)
+    text = page(views)
+    if args.output:
+        write_text(args.output, text)
+        size_mb = len(text.encode()) / 1e6
+        return f"{len(views.grasps)} grasps, {size_mb:.1f} MB: {printable(str(args.output))}\n"
+    with page_server(text, args.port) as server:
+        address = f"http://127.0.0.1:{server.server_address[1]}/"
+        sys.stdout.write(f"{len(views.grasps)} grasps at {address} until Ctrl-C\n")
+        sys.stdout.flush()
+        if not args.no_browser:
+            webbrowser.open(address)
+        server.serve_forever()
+    return ""

@@ -1,0 +1,306 @@
+// The viewer's page: what is chosen, and where the hand is. three.js draws; all lengths are metres.
+"use strict";
+
+const content = JSON.parse(document.getElementById("content").textContent);
+const field = (id) => document.getElementById(id);
+const ANY = "any";
+const PART_COLOURS = ["#4e79a7", "#f28e2b", "#59a14f", "#e15759", "#b07aa1", "#edc948", "#76b7b2", "#ff9da7", "#9c755f"];
+// From never touched to touched by everybody.
+const HEAT = [[0, [0.82, 0.84, 0.86]], [0.25, [0.98, 0.85, 0.45]], [0.6, [0.93, 0.42, 0.13]], [1, [0.55, 0.02, 0.1]]];
+const FACT_NAMES = {
+  Error: "energy", reason: "physics test", shape: "type by the rule", branch: "why this type", margin: "margin",
+  penetration_m: "penetration", tries: "tries",
+};
+const METRES_PER_NEWTON = 0.001; // an arrow of 1 cm is 10 N
+const SECONDS = 2.5; // of a whole closing motion
+
+const renderer = new THREE.WebGLRenderer({ antialias: true, preserveDrawingBuffer: true });
+const scene = new THREE.Scene();
+const camera = new THREE.PerspectiveCamera(35, 1, 0.01, 20);
+const controls = new THREE.OrbitControls(camera, renderer.domElement);
+const lamp = new THREE.DirectionalLight("#ffffff", 2.2);
+const objectGroup = new THREE.Group();
+const handGroup = new THREE.Group();
+const contactGroup = new THREE.Group();
+const loaded = {};
+let grasps = [];
+let shown = null;
+let playing = null;
+
+// Arrays of a stored blob by their [offset, type, length].
+async function unpack(id) {
+  const bytes = Uint8Array.from(atob(field(id).textContent), (letter) => letter.charCodeAt(0));
+  const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"));
+  const buffer = await new Response(stream).arrayBuffer();
+  const kinds = { uint8: Uint8Array, uint16: Uint16Array, uint32: Uint32Array };
+  return ([offset, kind, length]) => new kinds[kind](buffer, offset, length);
+}
+
+function geometry(mesh, array) {
+  const steps = array(mesh.vertices);
+  const points = new Float32Array(steps.length);
+  for (let i = 0; i < steps.length; i++) points[i] = mesh.low[i % 3] + (steps[i] / 65535) * mesh.extent[i % 3];
+  const made = new THREE.BufferGeometry();
+  made.setAttribute("position", new THREE.BufferAttribute(points, 3));
+  made.setIndex(new THREE.BufferAttribute(array(mesh.faces), 1));
+  made.computeVertexNormals();
+  return made;
+}
+
+function heat(value) {
+  const upper = HEAT.findIndex(([at]) => at >= value);
+  if (upper <= 0) return HEAT[0][1];
+  const [[low, dark], [high, bright]] = [HEAT[upper - 1], HEAT[upper]];
+  const share = (value - low) / (high - low);
+  return dark.map((from, i) => from + share * (bright[i] - from));
+}
+
+async function loadHand() {
+  const array = await unpack("hand");
+  const frames = content.hand.links.map((link) => {
+    const frame = new THREE.Group();
+    for (const { colour, mesh } of link.visuals) {
+      const look = new THREE.MeshStandardMaterial({
+        color: new THREE.Color(...colour), roughness: 0.55, metalness: 0.2, side: THREE.DoubleSide,
+      });
+      // Facets as they are: links are made of flat and cylindrical pieces.
+      look.flatShading = true;
+      frame.add(new THREE.Mesh(geometry(mesh, array), look));
+    }
+    return frame;
+  });
+  handGroup.add(frames[0]);
+  content.hand.joints.forEach((joint, i) => {
+    const rest = new THREE.Group();
+    rest.matrixAutoUpdate = false;
+    rest.matrix.set(...joint.rest);
+    rest.add(frames[i + 1]);
+    frames[joint.parent].add(rest);
+  });
+  handGroup.matrixAutoUpdate = false;
+  return frames;
+}
+
+async function loadObject(name) {
+  if (loaded[name]) return loaded[name];
+  const { parts, surface } = content.objects[name];
+  const array = await unpack(`object ${name}`);
+  const group = new THREE.Group();
+  const meshes = parts.map((part) => {
+    const mesh = new THREE.Mesh(geometry(part.mesh, array), new THREE.MeshStandardMaterial({ side: THREE.DoubleSide }));
+    group.add(mesh);
+    return mesh;
+  });
+  let touched = null;
+  if (surface) {
+    touched = new THREE.Mesh(geometry(surface, array), new THREE.MeshStandardMaterial({ vertexColors: true, roughness: 0.8, side: THREE.DoubleSide }));
+    group.add(touched);
+  }
+  return (loaded[name] = { group, meshes, touched, array });
+}
+
+function paint({ meshes, touched, array }) {
+  const { parts, maps } = content.objects[shown.object];
+  const how = field("colours").value;
+  const mapped = how === "contact map" && touched && maps[shown.task];
+  meshes.forEach((mesh, i) => {
+    const part = parts[i];
+    mesh.visible = !mapped;
+    const named = how === "parts";
+    mesh.material.color = named ? new THREE.Color(PART_COLOURS[i % PART_COLOURS.length]) : new THREE.Color(...part.colour);
+    mesh.material.metalness = named ? 0 : part.metallic * 0.5; // without surroundings to mirror, metal is black
+    mesh.material.roughness = named ? 0.8 : part.roughness;
+  });
+  if (touched) touched.visible = Boolean(mapped);
+  if (mapped) {
+    const colours = new Float32Array([...array(maps[shown.task])].flatMap((level) => heat(level / 255)));
+    touched.geometry.setAttribute("color", new THREE.BufferAttribute(colours, 3));
+  }
+  const legend = field("legend");
+  legend.replaceChildren();
+  if (mapped) {
+    const stops = HEAT.map(([at, rgb]) => `rgb(${rgb.map((v) => 255 * v ** (1 / 2.2))}) ${100 * at}%`);
+    legend.innerHTML = `share of people who touch it<div class="scale" style="background:linear-gradient(90deg,${stops})"></div>0 % <span style="float:right">100 %</span>`;
+  } else if (how === "parts") {
+    parts.forEach((part, i) => {
+      const row = document.createElement("div");
+      const key = document.createElement("span");
+      key.className = "key";
+      key.style.background = PART_COLOURS[i % PART_COLOURS.length];
+      row.append(key, part.role ? `${part.name} (${part.role})` : part.name);
+      legend.append(row);
+    });
+  }
+}
+
+// Place the hand at a moment from 0 (open, drawn back) to 1 (the grasp).
+function pose(moment) {
+  const { retreat, joints } = shown;
+  const place = moment * (retreat.length - 1);
+  const before = Math.min(Math.floor(place), retreat.length - 2);
+  const share = place - before;
+  const between = (a, b) => a + share * (b - a);
+  const back = between(retreat[before], retreat[before + 1]);
+  const [x, y, z] = shown.pose;
+  handGroup.matrix.set(...x, ...y, ...z, 0, 0, 0, 1);
+  handGroup.matrix.multiply(new THREE.Matrix4().makeTranslation(0, 0, -back));
+  content.hand.joints.forEach((joint, i) => {
+    const value = between(joints[before][i], joints[before + 1][i]);
+    if (joint.prismatic) frames[i + 1].position.z = value;
+    else frames[i + 1].rotation.z = value;
+  });
+  contactGroup.visible = field("contacts-shown").checked && moment > 0.999;
+  field("moment").value = moment;
+}
+
+function drawContacts() {
+  contactGroup.clear();
+  shown.points.forEach((point, i) => {
+    const at = new THREE.Vector3(...point);
+    const ball = new THREE.Mesh(new THREE.SphereGeometry(0.003, 16, 12), new THREE.MeshBasicMaterial({ color: "#00b050", depthTest: false, transparent: true }));
+    ball.position.copy(at);
+    ball.renderOrder = 1;
+    contactGroup.add(ball);
+    if (!shown.forces) return;
+    const force = new THREE.Vector3(...shown.forces[i]);
+    const length = METRES_PER_NEWTON * force.length();
+    if (length < 0.001) return;
+    const from = at.clone().addScaledVector(force, -METRES_PER_NEWTON);
+    const arrow = new THREE.ArrowHelper(force.normalize(), from, length, "#0057d9", Math.min(0.012, length), 0.006);
+    for (const part of [arrow.line, arrow.cone]) {
+      part.material.depthTest = false;
+      part.material.transparent = true;
+      part.renderOrder = 2;
+    }
+    contactGroup.add(arrow);
+  });
+}
+
+function tell() {
+  const rows = [["object", shown.object], ["task", shown.task], ["grasp type", shown.type], ["rank", shown.rank], ["session", shown.session]];
+  for (const [key, value] of Object.entries(shown.facts)) {
+    let text = value;
+    if (key === "penetration_m") text = `${(1000 * value).toFixed(2)} mm`;
+    else if (key === "Error" || key === "margin") text = Number(value).toFixed(3);
+    rows.push([FACT_NAMES[key], text]);
+  }
+  const links = shown.links.map((name, i) => (shown.forces ? `${name} ${Math.hypot(...shown.forces[i]).toFixed(1)} N` : name));
+  rows.push(["contacts", links.join(", ") || "none recorded"]);
+  field("facts").replaceChildren(...rows.map((cells) => {
+    const row = document.createElement("tr");
+    row.append(...cells.map((cell) => Object.assign(document.createElement("td"), { textContent: cell })));
+    return row;
+  }));
+}
+
+// Look at object and hand from a side on which the hand hides little.
+function aim() {
+  const box = new THREE.Box3().setFromObject(objectGroup).union(new THREE.Box3().setFromObject(handGroup));
+  const centre = box.getCenter(new THREE.Vector3());
+  const reach = 0.5 * box.getSize(new THREE.Vector3()).length() / Math.tan((camera.fov * Math.PI) / 360);
+  const side = new THREE.Vector3(shown.pose[0][0], shown.pose[1][0], shown.pose[2][0]).multiplyScalar(0.8);
+  side.add(new THREE.Vector3(0.35, -0.6, 0.6)).normalize();
+  camera.position.copy(centre).addScaledVector(side, reach * Math.max(1, 1 / camera.aspect));
+  controls.target.copy(centre);
+  controls.update();
+}
+
+async function show(grasp) {
+  const turned = !shown || shown.object !== grasp.object;
+  shown = grasp;
+  playing = null;
+  const object = await loadObject(grasp.object);
+  if (shown !== grasp) return;
+  objectGroup.clear();
+  objectGroup.add(object.group);
+  paint(object);
+  drawContacts();
+  pose(1);
+  tell();
+  const place = grasps.indexOf(grasp);
+  field("place").textContent = `${place + 1} of ${grasps.length}`;
+  field("grasp").value = place;
+  scene.updateMatrixWorld(true);
+  if (turned) aim();
+  document.body.dataset.shown = `${grasp.object} ${grasp.task} ${grasp.session}`;
+}
+
+function fill(id, values, kept) {
+  const box = field(id);
+  box.replaceChildren(...values.map((value) => new Option(value, value)));
+  box.value = values.includes(kept) ? kept : values[0];
+}
+
+const known = (list, key) => [...new Set(list.map(key))];
+const chosen = (id) => field(id).value;
+const outcome = (grasp) => grasp.facts.reason ?? "unknown";
+
+// Every list offers what the lists above it leave.
+function choose(kept) {
+  fill("object", Object.keys(content.objects), chosen("object"));
+  const ofObject = content.grasps.filter((grasp) => grasp.object === chosen("object"));
+  fill("task", [ANY, ...known(ofObject, (grasp) => grasp.task)], chosen("task"));
+  const ofTask = ofObject.filter((grasp) => [ANY, grasp.task].includes(chosen("task")));
+  fill("type", [ANY, ...known(ofTask, (grasp) => grasp.type).sort()], chosen("type"));
+  const ofType = ofTask.filter((grasp) => [ANY, grasp.type].includes(chosen("type")));
+  fill("reason", [ANY, ...known(ofType, outcome)], kept ? chosen("reason") : "valid");
+  grasps = ofType.filter((grasp) => [ANY, outcome(grasp)].includes(chosen("reason")));
+  grasps.sort((a, b) => a.task.localeCompare(b.task) || a.rank - b.rank);
+  field("grasp").replaceChildren(...grasps.map((grasp, i) => new Option(`${grasp.task}, rank ${grasp.rank}: ${grasp.type}`, i)));
+  const { surface } = content.objects[chosen("object")];
+  fill("colours", ["materials", "parts", ...(surface ? ["contact map"] : [])], chosen("colours"));
+  return show(grasps.includes(kept) ? kept : grasps[0]);
+}
+
+const step = (by) => show(grasps[(grasps.indexOf(shown) + by + grasps.length) % grasps.length]);
+
+function resize() {
+  renderer.setPixelRatio(window.devicePixelRatio);
+  renderer.setSize(window.innerWidth, window.innerHeight);
+  camera.aspect = window.innerWidth / window.innerHeight;
+  // The panel covers the left: the middle is that of what is left.
+  const covered = Math.min(312, window.innerWidth / 3);
+  camera.setViewOffset(window.innerWidth, window.innerHeight, -covered / 2, 0, window.innerWidth, window.innerHeight);
+  camera.updateProjectionMatrix();
+}
+
+function draw(now) {
+  if (playing !== null) {
+    const moment = Math.min((now - playing) / 1000 / SECONDS, 1);
+    pose(Math.max(moment, 0));
+    if (moment === 1) playing = null;
+  }
+  controls.update();
+  lamp.position.copy(camera.position);
+  renderer.render(scene, camera);
+  requestAnimationFrame(draw);
+}
+
+let frames = [];
+async function start() {
+  scene.background = new THREE.Color("#eef1f5");
+  camera.up.set(0, 0, 1);
+  scene.add(new THREE.HemisphereLight("#ffffff", "#8d949e", 1.6), lamp, objectGroup, handGroup, contactGroup);
+  document.body.prepend(renderer.domElement);
+  controls.enableDamping = true;
+  controls.dampingFactor = 0.2;
+  window.addEventListener("resize", resize);
+  resize();
+  for (const id of ["object", "task", "type", "reason"]) field(id).addEventListener("change", () => choose(shown));
+  field("grasp").addEventListener("change", () => show(grasps[field("grasp").value]));
+  field("previous").addEventListener("click", () => step(-1));
+  field("next").addEventListener("click", () => step(1));
+  field("colours").addEventListener("change", () => paint(loaded[shown.object]));
+  field("hand-shown").addEventListener("change", () => (handGroup.visible = field("hand-shown").checked));
+  field("contacts-shown").addEventListener("change", () => pose(Number(field("moment").value)));
+  field("play").addEventListener("click", () => (playing = performance.now()));
+  field("moment").addEventListener("input", () => {
+    playing = null;
+    pose(Number(field("moment").value));
+  });
+  frames = await loadHand();
+  await choose(null);
+  requestAnimationFrame(draw);
+}
+
+start();
