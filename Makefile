@@ -16,7 +16,7 @@ export DVC_NO_ANALYTICS := 1
 export MLFLOW_DISABLE_TELEMETRY := true
 
 .PHONY: help setup table1 demo test test-slurm test-workflow bad-input verify coverage mutation bench lint format \
-    publish ui report results clean lock
+    publish ui report results release clean lock
 
 help: ## list the targets
 	@awk -F ':.*## ' '/^[a-z0-9-]+:.*## / {printf "  make %-12s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -43,7 +43,7 @@ hand: setup ## the main job with another hand, on a branch in hands/HAND: make h
 	cd $(HAND_FOLDER) && sed -i 's|^hand: .*|hand: $(HAND)|; s|database: mlflow.db|database: ../../mlflow.db|' params.yaml
 	cd $(HAND_FOLDER) && dvc cache dir --local ../../.dvc/cache && dvc repro
 
-.PHONY: generalisation scaling test-own
+.PHONY: generalisation scaling test-own lowest
 generalisation: setup ## what more shapes of every object buy on unseen objects: reports/generalisation.csv
 	snakemake -j$(JOBS) reports/generalisation.csv
 
@@ -59,6 +59,13 @@ scaling: setup ## time and memory against the number of objects: reports/scaling
 
 test: setup ## the default tests
 	pytest -n $(JOBS)
+
+lowest: setup ## test the library with the lowest versions that its ranges allow, in build/lowest
+	$(PYTHON) -m venv --clear build/lowest
+	python tests/lowest.py > build/lowest.txt
+	build/lowest/bin/pip install -q --disable-pip-version-check -r build/lowest.txt
+	PYTHONPATH=src build/lowest/bin/python -m pytest tests/unit/hands tests/unit/objects tests/unit/commands/test_label.py \
+	    tests/unit/labels/test_contacts.py tests/unit/labels/test_grasp_type.py --ignore tests/unit/hands/test_visuals.py
 
 test-workflow: setup ## all that docs/versions.md and docs/reliability.md say, on 2 objects; about half an hour
 	pytest tests/workflow -m "slow or not slow"
@@ -104,6 +111,11 @@ report: setup ## the results with captions as one HTML page that opens offline: 
 results: setup ## copy what README and docs quote from reports/ to docs/results/
 	@for file in docs/results/*; do new="reports/$${file##*/}"; \
 	    if [ -e "$$new" ]; then cp "$$new" "$$file"; else echo "$$file stays: there is no $$new"; fi; done
+
+release: setup ## the dataset as one folder for other programs: build/release
+	snakemake -j$(JOBS) objects grasps screenshots renders data/grasps.csv data/samples.csv data/folds.csv
+	rm -rf build/release
+	python -m grasptypes.release.writing build/release
 
 clean: ## remove what can be rebuilt outside the data: logs, demo, caches
 	rm -rf build logs mutants .coverage* .pytest_cache .ruff_cache .mypy_cache

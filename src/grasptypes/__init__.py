@@ -30,6 +30,7 @@ if TYPE_CHECKING:
     from grasptypes.objects.object_geometry import ObjectGeometry
     from grasptypes.planning.planner import Plan, Planner
     from grasptypes.predictors.prediction import Answer, Predictor
+    from grasptypes.release.reading import Release, load_release
 
     __version__: str
 
@@ -42,9 +43,11 @@ __all__ = [
     "Plan",
     "Planner",
     "Predictor",
+    "Release",
     "__version__",
     "label",
     "load_object",
+    "load_release",
 ]
 _HOMES = {
     "Answer": "predictors.prediction",
@@ -57,6 +60,8 @@ _HOMES = {
     "Predictor": "predictors.prediction",
     "label": "labels.grasp",
     "load_object": "objects.loading",
+    "load_release": "release.reading",
+    "Release": "release.reading",
 }
 # Libraries that a name needs, besides those that come with the package.
 _EXTRAS = {"Plan": "plan", "Planner": "plan", "Answer": "predict", "Predictor": "predict"}
