@@ -15,6 +15,7 @@ import params_cases
 import picture_cases
 import plan_cases
 import table_cases
+import view_cases
 import weights_cases
 from case import ROOT, Case, try_in
 
@@ -24,6 +25,7 @@ MODULES = (
     map_cases,
     table_cases,
     knowledge_cases,
+    view_cases,
     weights_cases,
     picture_cases,
     command_cases,

@@ -25,7 +25,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="name of a hand, or folder with one (default: the plan's, or in params.yaml)",
     )
     parser.add_argument("--output", type=Path, help="HTML file to write instead of serving it")
-    parser.add_argument("--port", type=int, default=0, help="port of the page (default: any)")
+    parser.add_argument("--port", type=_port, default=0, help="port of the page (default: any)")
     parser.add_argument("--no-browser", action="store_true", help="print the address only")
     add_folder(parser)
 
@@ -58,3 +58,9 @@ def run(args: argparse.Namespace) -> str:
             webbrowser.open(address)
         server.serve_forever()
     return ""
+
+
+def _port(text: str) -> int:
+    if not text.isdecimal() or int(text) > 65535:
+        raise argparse.ArgumentTypeError(f"{text} is not a port (0 to 65535)")
+    return int(text)

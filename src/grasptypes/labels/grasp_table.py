@@ -30,8 +30,8 @@ def read_grasp_table(path: str | Path, hand: Hand) -> tuple[pd.DataFrame, HandSt
         hand: the hand of the grasps.
 
     Returns:
-        all cells as text, and the hands in the object's frame; both without the rows whose
-        HandConfiguration is blank.
+        all cells as text, indexed by the row of the file, and the hands in the object's frame; both
+        without the rows whose HandConfiguration is blank.
 
     Raises:
         InputError: names the file, and the first bad line and column.
@@ -54,8 +54,8 @@ def read_grasp_table(path: str | Path, hand: Hand) -> tuple[pd.DataFrame, HandSt
         raise InputError(path, missing, f"this column is missing; {known[0]} is there")
     positions = hand.couple(posed.dofs)
     if known:
-        positions = np.stack([_column(path, cells[name]) for name in names], axis=1)
-    return cells.reset_index(drop=True), HandStates(hand, posed.T_object_hand, positions)
+        positions = np.stack([number_column(path, cells[name]) for name in names], axis=1)
+    return cells, HandStates(hand, posed.T_object_hand, positions)
 
 
 def _lines(column: pd.Series) -> list[tuple[int, str]]:
@@ -63,8 +63,12 @@ def _lines(column: pd.Series) -> list[tuple[int, str]]:
     return [(int(row) + 2, text) for row, text in column.items()]
 
 
-def _column(path: Path, column: pd.Series) -> Array:
-    """The numbers (n,) of a column."""
+def number_column(path: Path, column: pd.Series) -> Array:
+    """The numbers (n,) of a column of cells from `path`.
+
+    Raises:
+        InputError: names the line of the first cell that is not one finite number.
+    """
     return np.array(
         [_numbers(path, line, str(column.name), cell)[0] for line, cell in _lines(column)]
     )

@@ -19,7 +19,7 @@ from grasptypes.hands.hand import Hand
 from grasptypes.hands.reading import load_hand
 from grasptypes.hands.states import HandStates
 from grasptypes.labels.contacts import MeshDistance, find_contacts
-from grasptypes.labels.grasp_table import read_grasp_table
+from grasptypes.labels.grasp_table import number_column, read_grasp_table
 from grasptypes.objects.object_files import PROPERTIES, SURFACE, VISUAL, read_surface
 from grasptypes.settings.params import Params, checkout_params
 from grasptypes.viewer.closing_motion import Motion, closing_motion
@@ -134,13 +134,15 @@ def dataset_views(path: Path, hand: Hand, only: str | None = None) -> GraspViews
         if not chosen.any():
             known = ", ".join(dict.fromkeys(cells.Object))
             raise InputError(path, "Object", f"there is no {only}; it has {known}")
-        cells, states = cells[chosen].reset_index(drop=True), states.take(chosen)
+        cells, states = cells[chosen], states.take(chosen)
+    order = number_column(path, cells.Error) if "Error" in cells else np.arange(len(cells))
+    energy = pd.Series(order, index=cells.index)
+    ranks = energy.groupby([cells.Object, cells.Intent]).rank(method="first").astype(int).tolist()
+    cells = cells.assign(Session=number_column(path, cells.Session).astype(int))
     tasks = list(dict.fromkeys(cells.Intent))
     objects = {
         name: _dataset_object(path.parent, name, tasks) for name in dict.fromkeys(cells.Object)
     }
-    energy = pd.to_numeric(cells.Error) if "Error" in cells else pd.Series(range(len(cells)))
-    ranks = energy.groupby([cells.Object, cells.Intent]).rank(method="first").astype(int).tolist()
     contacts = _recorded(path.parent, cells)
     return GraspViews(only or "All grasps", hand, objects, _grasps(cells, states, ranks, contacts))
 
@@ -169,7 +171,7 @@ def _recorded(data: Path, cells: pd.DataFrame) -> list[ShownContacts]:
             path = data / "grasps" / row.Object / f"{row.Intent}.parquet"
             tables[key] = pd.read_parquet(path) if path.is_file() else pd.DataFrame()
         table = tables[key]
-        chosen = table[table.session == int(row.Session)] if len(table) else table
+        chosen = table[table.session == row.Session] if len(table) else table
         if not len(chosen):
             found.append(ShownContacts((), np.empty((0, 3)), None))
             continue
@@ -192,7 +194,8 @@ def _of_plan(path: Path, hand_name: str | None, params: Params) -> GraspViews:
     roles = _roles(folder / PROPERTIES)
     shown = load_shown_object(summary["object"], folder / VISUAL, None, {}, roles)
     contacts = _near(shown, states, params)
-    ranks = [int(rank) for rank in cells.Rank]
+    ranks = number_column(path, cells.Rank).astype(int).tolist()
+    cells = cells.assign(Session=number_column(path, cells.Session).astype(int))
     title = f"{summary['object']}, {summary['task']}"
     return GraspViews(title, hand, {shown.name: shown}, _grasps(cells, states, ranks, contacts))
 
@@ -226,7 +229,7 @@ def _grasps(
         ShownGrasp(
             object=row.Object,
             task=row.Intent,
-            session=int(row.Session),
+            session=row.Session,
             rank=rank,
             grasp_type=row.GraspType,
             facts={name: getattr(row, name) for name in FACTS if hasattr(row, name)},
