@@ -33,6 +33,10 @@ MEANINGS = {
     "HandConfiguration": "rank index, 3x4 pose of the palm in the object's frame row by row "
     "(metres), degrees of freedom (radians)",
     "Image": "screenshots/<object>_<session>_<task>.png, in images/screenshots/<object>.zip",
+    "reason": "valid, or why the physics test rejects the grasp",
+    "shape": "type by the labelling rule, whether or not the grasp is valid",
+    "branch": "way through the rule's tree, with the values that decided it",
+    "margin": "relative distance to the nearest threshold on that way",
     "diameter_m": "enclosed diameter, metres",
     "palm_gap_m": "from the palm to the object, metres",
     "sideways_share": "share of the push that is sideways",
