@@ -27,10 +27,19 @@ class _Parser(argparse.ArgumentParser):
         self.exit(2, f"error: {message} (see {self.prog} --help)\n")
 
 
+class _Version(argparse.Action):
+    """Prints the version; only then is the package's metadata looked up."""
+
+    def __call__(self, parser: argparse.ArgumentParser, *_: object) -> NoReturn:
+        """Exit with status 0."""
+        sys.stdout.write(f"grasptypes {version('grasptypes')}\n")
+        parser.exit()
+
+
 def parser() -> argparse.ArgumentParser:
     """All commands and their options."""
     whole = _Parser("grasptypes", description="Which grasp should a robot hand use?")
-    whole.add_argument("--version", action="version", version=f"grasptypes {version('grasptypes')}")
+    whole.add_argument("--version", action=_Version, nargs=0, help="print the version")
     commands = whole.add_subparsers(dest="command", required=True, metavar="COMMAND")
     for name, module in COMMANDS.items():
         command = commands.add_parser(

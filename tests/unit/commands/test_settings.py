@@ -3,6 +3,7 @@
 import subprocess
 import sys
 from concurrent.futures.process import BrokenProcessPool
+from importlib.metadata import version
 from pathlib import Path
 
 import pytest
@@ -83,3 +84,10 @@ def test_names_that_are_too_long_are_found_at_once(tmp_path):
             check_place(tmp_path / name)
     check_place(tmp_path / "x" / "x" / "x")
     assert list(tmp_path.iterdir()) == []
+
+
+def test_the_version_is_that_of_the_package(capsys):
+    with pytest.raises(SystemExit) as end:
+        main(["--version"])
+    assert end.value.code == 0
+    assert capsys.readouterr().out == f"grasptypes {version('grasptypes')}\n"
