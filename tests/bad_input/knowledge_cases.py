@@ -66,11 +66,11 @@ CASES = [
     changed("tasks.yaml", "no reason", "reason: The edge must", "x: The edge must", "'x'"),
     changed(
         *("tasks.yaml", "a force in kilonewtons", "force_n: 20.0", "force_kn: 0.02"),
-        *("tasks.cut.wrench", "'force_kn'", "force_n"),
+        *("tasks.cut.wrenches.0", "'force_kn'", "force_n"),
     ),
     changed(
-        *("tasks.yaml", "an unknown direction", "force_along: axis", "force_along: down"),
-        *("tasks.insert.wrench.force_along", "'down'", "across"),
+        *("tasks.yaml", "an unknown direction", "along: axis", "along: up"),
+        *("tasks.use.wrenches.1.along", "'up'", "across"),
     ),
     changed("holds.yaml", "a prior of -1", "tripod: 1.13", "tripod: -1", "groups.handle.grips"),
     changed("holds.yaml", "a prior that is not a number", "{wrap: 5.41", "{wrap: .nan", "groups"),

@@ -15,7 +15,7 @@ rule synthesize_grasps:
         synthesis=settings("synthesis"),
         physics=settings("physics"),
         hand=hand_parameter(config["hand"]),
-        loads={"file": config["robustness"]["loads"], **hashes(config["robustness"]["loads"])},
+        tasks=hashes([TASKS_FILE]),
         seed=config["seed"],
         code=script_hash("synthesize_grasps"),
     message:

@@ -14,7 +14,7 @@ rule test_grasps:
         hand=hand_parameter(config["hand"]),
         physics=config["physics"]["test"],
         robustness=config["robustness"],
-        loads=hashes(config["robustness"]["loads"]),
+        tasks=hashes([TASKS_FILE]),
         synthesis=settings("synthesis"),
         seed=config["seed"],
         code=script_hash("test_grasps"),

@@ -11,6 +11,7 @@ from grasptypes.objects.object_geometry import read_object
 from grasptypes.physics.loads import task_load
 from grasptypes.settings.physics import GraspTestSettings
 from grasptypes.settings.synthesis import SynthesisSettings
+from grasptypes.settings.tasks import read_tasks
 from grasptypes.synthesis.grasps import ATTEMPT_SCHEMA, GRASP_SCHEMA
 from grasptypes.synthesis.trials import SynthesisTask, synthesize
 from grasptypes.tables import write_table
@@ -31,6 +32,7 @@ def write_grasps(
 if __name__ == "__main__":
     with job(snakemake.log):
         inputs, params = snakemake.input, snakemake.params
+        test = GraspTestSettings.check(params.physics)
         geometry, task = read_object(Path(inputs.properties).parent), snakemake.wildcards.task
         write_grasps(
             SynthesisTask(
@@ -39,12 +41,9 @@ if __name__ == "__main__":
                 geometry,
                 read_contact_map(inputs.contact_map),
                 params.seed,
-                task_load(params.loads["file"], geometry, task),
+                task_load(read_tasks()[task], geometry, test.test.gravity_m_s2),
             ),
             load_hand(params.hand["name"]),
-            (
-                SynthesisSettings.check(params.synthesis),
-                GraspTestSettings.check(params.physics),
-            ),
+            (SynthesisSettings.check(params.synthesis), test),
             snakemake.output,
         )

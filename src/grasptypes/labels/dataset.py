@@ -55,6 +55,7 @@ def dataset_schema(hand: Hand) -> pa.DataFrameSchema:
                 str, pa.Check(lambda cells: cells.str.count(",") == commas)
             ),
             "Image": pa.Column(str),
+            "hand": pa.Column(str, pa.Check.eq(hand.title)),
             "reason": pa.Column(str, description="'valid', or why the grasp is invalid"),
             "shape": pa.Column(str, pa.Check.isin(TYPES), description="type by the rule"),
             "branch": pa.Column(str, description="the way through the tree"),
@@ -128,6 +129,7 @@ def dataset_columns(table: pd.DataFrame, hand: Hand) -> pd.DataFrame:
     positions = np.stack(table.joint_angles_rad.tolist()).astype(np.float64)
     ours = pd.DataFrame(
         {
+            "hand": hand.title,
             "reason": table.reason.where(~table.valid, VALID),
             **{name: table[name] for name in ("shape", "branch", "margin", "virtual_fingers")},
             **{name: table[name] for name in _MEASURES.values()},

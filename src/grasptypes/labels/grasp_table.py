@@ -13,8 +13,8 @@ from grasptypes.hands import configuration
 from grasptypes.hands.configuration import POSE_LENGTH
 from grasptypes.hands.hand import Hand
 from grasptypes.hands.states import HandStates
-from grasptypes.labels.dataset import joint_columns
 from grasptypes.labels.published import RIGID_TOLERANCE, read_cells
+from grasptypes.labels.recorded import joint_columns
 
 Array = NDArray[np.float64]
 

@@ -11,7 +11,7 @@ from scipy.spatial.transform import Rotation
 
 from grasptypes.physics.engine import NOMINAL, Contact, Engine, Surroundings
 from grasptypes.physics.loads import TaskLoad
-from grasptypes.physics.motors import Motors, grip_force_n
+from grasptypes.physics.motors import Motors, grip_forces
 from grasptypes.poses import inverse
 from grasptypes.settings.physics import PhysicsSettings
 
@@ -86,9 +86,7 @@ def hold(
     )
     if load is None or result.dropped:
         return result
-    engine.push(load.force(T_object_hand), load.point_m)
-    loaded = bear(engine, motors, R @ DIRECTIONS[0] * settings.gravity_m_s2)
-    return result._replace(bears_load=not loaded.lost)
+    return result._replace(bears_load=bears_load(engine, motors, T_object_hand, load))
 
 
 def hold_in_all(
@@ -133,8 +131,8 @@ def load_and_couple(
 ) -> Motors:
     """Load hand and object; returns the motors, which have not moved yet."""
     engine.load(T_object_hand, positions, world)
-    force_n = grip_force_n(engine.hand, engine.geometry.properties.mass_kg, engine.settings)
-    motors = Motors(engine.hand, positions, force_n, stages)
+    forces_n = grip_forces(engine.hand, engine.geometry.properties.mass_kg, engine.settings)
+    motors = Motors(engine.hand, positions, forces_n, stages)
     for finger, stage in enumerate(motors.stages):
         engine.couple(finger, stage)
     return motors
@@ -188,6 +186,19 @@ def bear(
     crept, _ = _difference(half, after, centre_m)
     creep = np.inf if lost else crept / (time_s / 2.0)
     return Motion(lost, moved, turned, creep, after)
+
+
+def bears_load(engine: Engine, motors: Motors, T_object_hand: Array, load: TaskLoad) -> bool:
+    """Whether a squeezed object stays in the hand, at a pose (4, 4), under a task's load.
+
+    Its directions follow each other, each for the holding time, besides gravity along -z.
+    """
+    down = T_object_hand[:3, :3].T @ DIRECTIONS[0] * engine.settings.gravity_m_s2
+    for force_n in load.forces(T_object_hand):
+        engine.push(force_n, load.point_m)
+        if bear(engine, motors, down).lost:
+            return False
+    return True
 
 
 def _interval_s(settings: PhysicsSettings) -> float:

@@ -1,118 +1,64 @@
-"""The load that a task puts on a grasp besides the object's weight: a table with reasons.
-
-A row of the table names an object (or `*` for those without a row of their own), a task, the part
-at whose centre the load acts (or `*` for the centre of mass), its direction (an axis of the object,
-or `away` from the palm, along the hand's approach), its force and the reason for it.
-"""
+"""The load that a task puts on a grasped object besides its weight, from the task's wrenches."""
 
 from __future__ import annotations
 
-import csv
-from pathlib import Path
+from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from grasptypes.errors import InputError
 from grasptypes.objects.object_geometry import ObjectGeometry
+from grasptypes.settings.tasks import Direction, Task, Wrench
 
 Array = NDArray[np.float64]
 
-COLUMNS = ("object", "task", "part", "direction", "force_n", "reason")
-ANY = "*"
-AWAY = "away"
-AXES = {
-    f"{sign}{axis}": float(f"{sign}1") * np.eye(3)[index]
-    for index, axis in enumerate("xyz")
-    for sign in "+-"
-}
-DIRECTIONS = (*AXES, AWAY)
-# Twice the force with which a strong hand grips: more is a typing error.
-MOST_N = 1000.0
-
 
 class TaskLoad(NamedTuple):
-    """A force on an object."""
+    """A force on an object, in one or several directions in turn."""
 
     point_m: Array
     """(3,) where it acts, in the object's frame."""
-    direction: str
-    """One of `DIRECTIONS`."""
     force_n: float
+    along: Direction
+    axes: Array
+    """(3, 3) rows: the object's principal axes, the longest one first, in its frame."""
 
-    def force(self, T_object_hand: Array) -> Array:
-        """(3,) newtons, in the frame of a hand at a pose (4, 4)."""
-        away = np.array([0.0, 0.0, 1.0])
-        if self.direction == AWAY:
-            return self.force_n * away
-        return np.asarray(self.force_n * (T_object_hand[:3, :3].T @ AXES[self.direction]))
+    def forces(self, T_object_hand: Array) -> Array:
+        """(K, 3) newtons, in the frame of a hand at a pose (4, 4)."""
+        if self.along == "away":
+            return self.force_n * np.array([[0.0, 0.0, 1.0]])
+        if self.along == "down":
+            directions = np.array([[0.0, 0.0, -1.0]])
+        else:
+            chosen = {"axis": self.axes[:1], "across": self.axes[1:], "any": self.axes}[self.along]
+            directions = np.concatenate([chosen, -chosen])
+        return np.asarray(self.force_n * directions @ T_object_hand[:3, :3])
 
 
-def task_load(path: str | Path, geometry: ObjectGeometry, task: str) -> TaskLoad | None:
-    """The load of an object and task, from the table; None if the table has none for the task.
+def task_load(task: Task, geometry: ObjectGeometry, gravity_m_s2: float) -> TaskLoad:
+    """The load of a task on an object: the first of the task's wrenches whose part it has.
 
-    Raises:
-        InputError: the table cannot be read, or a row is wrong.
+    It acts at the centre of these parts, or at the centre of mass.
     """
-    chosen = None
-    for place, row in _rows(path):
-        if row["task"] != task or row["object"] not in (ANY, geometry.name):
-            continue
-        if chosen is None or row["object"] != ANY:
-            chosen = place, row
-    if chosen is None:
-        return None
-    place, row = chosen
-    point = _point(geometry, row["part"], path, place)
-    return TaskLoad(point, row["direction"], float(row["force_n"]))
+    body = geometry.properties
+    wrench, parts = _wrench(task.wrenches, body.roles)
+    point_m = np.array(body.centre_of_mass_m)
+    if parts:
+        surface = geometry.surface
+        numbers = [surface.part_names.tolist().index(part) for part in parts]
+        point_m = surface.vertices[np.isin(surface.part_index, numbers)].mean(axis=0)
+    _, axes = np.linalg.eigh(np.array(body.inertia_kg_m2))
+    force_n = wrench.force_n + wrench.weights * body.mass_kg * gravity_m_s2
+    return TaskLoad(point_m, force_n, wrench.along, axes.T)
 
 
-def _rows(path: str | Path) -> list[tuple[str, dict[str, str]]]:
-    """The rows with their places, checked."""
-    try:
-        with Path(path).open(encoding="utf-8", newline="") as file:
-            reader = csv.DictReader(file)
-            rows = [(f"row {number}", row) for number, row in enumerate(reader, start=2)]
-            columns = tuple(reader.fieldnames or ())
-    except (OSError, UnicodeDecodeError, csv.Error) as error:
-        raise InputError(path, "", f"cannot be read as a table: {error}") from error
-    if columns != COLUMNS:
-        raise InputError(path, "columns", f"must be {', '.join(COLUMNS)}")
-    seen: dict[tuple[str, str], str] = {}
-    for place, row in rows:
-        _check(path, place, row)
-        key = row["object"], row["task"]
-        if key in seen:
-            raise InputError(path, place, f"{' for '.join(key)} is also in {seen[key]}")
-        seen[key] = place
-    return rows
-
-
-def _check(path: str | Path, place: str, row: dict[str, str]) -> None:
-    if None in row or None in row.values():
-        raise InputError(path, place, f"needs {len(COLUMNS)} cells")
-    if row["direction"] not in DIRECTIONS:
-        allowed = ", ".join(DIRECTIONS)
-        raise InputError(path, f"{place}, direction", f"'{row['direction']}' is not of {allowed}")
-    try:
-        force = float(row["force_n"])
-    except ValueError as error:
-        said = f"'{row['force_n']}' is not a number"
-        raise InputError(path, f"{place}, force_n", said) from error
-    if not 0.0 <= force <= MOST_N:
-        raise InputError(path, f"{place}, force_n", f"must be 0 to {MOST_N:g} N")
-    if not row["reason"]:
-        raise InputError(path, f"{place}, reason", "is empty: say where the number is from")
-
-
-def _point(geometry: ObjectGeometry, part: str, path: str | Path, place: str) -> Array:
-    if part == ANY:
-        return np.array(geometry.properties.centre_of_mass_m)
-    surface = geometry.surface
-    names = surface.part_names.tolist()
-    if part not in names:
-        message = f"'{part}' is no part of {geometry.name}: {', '.join(names)}"
-        raise InputError(path, f"{place}, part", message)
-    held = surface.vertices[surface.part_index == names.index(part)]
-    return np.asarray(held.mean(axis=0))
+def _wrench(
+    wrenches: Sequence[Wrench], roles: Mapping[str, Mapping[str, object]]
+) -> tuple[Wrench, list[str]]:
+    """The wrench, and the names of the parts on which it acts; none for the centre of mass."""
+    for wrench in wrenches[:-1]:
+        if parts := [name for name, part in roles.items() if part["role"] in wrench.at]:
+            return wrench, parts
+    last = wrenches[-1]
+    return last, [name for name, part in roles.items() if part["role"] in last.at]

@@ -30,15 +30,20 @@ class MotorCommand(NamedTuple):
     """Positions from which joints withstand being driven back."""
 
 
-def grip_force_n(hand: Hand, mass_kg: float, settings: PhysicsSettings) -> float:
-    """Force of a fingertip that holds an object: it follows the weight, within what the hand can.
+def grip_forces(hand: Hand, mass_kg: float, settings: PhysicsSettings) -> Array:
+    """(F,) forces of the fingertips that hold an object, newtons.
 
-    It is at least the gentle force of the hand's description and at most its rated force.
+    They follow the weight, between the gentle and the rated force of the hand's description. The
+    fingers together press with no more than a share of what the thumbs withstand: otherwise they
+    would push the thumbs back, and the object after them.
     """
     motors = hand.motors
     weight_n = mass_kg * settings.gravity_m_s2
-    wanted = max(motors.fingertip_force_n, settings.grip_weights * weight_n)
-    return min(wanted, motors.rated_force_n or motors.fingertip_force_n)
+    wanted_n = max(motors.fingertip_force_n, settings.grip_weights * weight_n)
+    force_n = min(wanted_n, motors.rated_force_n or motors.fingertip_force_n)
+    thumbs = np.array([finger.thumb for finger in hand.fingers])
+    borne_n = settings.thumb_share * motors.passive_force_n * thumbs.sum() / (~thumbs).sum()
+    return np.where(thumbs, force_n, min(force_n, borne_n))
 
 
 class Motors:
@@ -53,11 +58,13 @@ class Motors:
         self,
         hand: Hand,
         positions: Array,
-        force_n: float,
+        forces_n: Array,
         stages: Sequence[int] | None = None,
     ) -> None:
         self.hand = hand
-        self._force_n = force_n
+        self._forces_n = np.zeros(len(positions))
+        for finger, force_n in zip(hand.fingers, forces_n, strict=True):
+            self._forces_n[list(finger.joints)] = force_n
         released = np.where(hand.prismatic_joints, RELEASED_M, RELEASED_RAD)
         ahead = np.abs(hand.lag(positions)) >= released
         shown = (_stage(finger, ahead) for finger in hand.fingers)
@@ -94,8 +101,8 @@ class Motors:
         levers = np.where(follows & moves, 0.0, self._levers)
         return MotorCommand(
             speeds=speeds,
-            closing_torques=np.where(moves, self._force_n * levers, 0.0),
-            passive_torques=max(motors.passive_force_n, self._force_n) * levers,
+            closing_torques=np.where(moves, self._forces_n * levers, 0.0),
+            passive_torques=np.maximum(motors.passive_force_n, self._forces_n) * levers,
             reached=np.minimum(self._reached, hand.joint_limits[:, 1]),
         )
 

@@ -16,9 +16,11 @@ import pandas as pd
 from grasptypes.hands.reading import load_hand
 from grasptypes.labels.dataset import label_grasps
 from grasptypes.objects.object_geometry import ObjectGeometry
+from grasptypes.physics.loads import task_load
 from grasptypes.planning.plan_contacts import PlanContacts
 from grasptypes.seeds import seed
 from grasptypes.settings.params import Params
+from grasptypes.settings.tasks import read_tasks
 from grasptypes.synthesis.trials import SynthesisTask, synthesize
 
 
@@ -123,7 +125,9 @@ def _search(context: PlanningContext, contacts: PlanContacts, index: int) -> pd.
     number, params = contacts.numbers[index], context.params
     session_seed = seed("plan", context.word, context.task, number, params.seed)
     held = contacts.contact_map.session(index)
-    task = SynthesisTask(context.word, context.task, context.geometry, held, session_seed)
+    gravity_m_s2 = params.physics.test.gravity_m_s2
+    load = task_load(read_tasks()[context.task], context.geometry, gravity_m_s2)
+    task = SynthesisTask(context.word, context.task, context.geometry, held, session_seed, load)
     _, attempts = synthesize(task, load_hand(context.hand), params.synthesis, params.physics)
     added = {"grip": str(held.grip[0]), "tries": len(attempts)}
     return attempts.assign(object=context.geometry.name, session=number, **added)

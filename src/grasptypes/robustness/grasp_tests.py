@@ -22,7 +22,7 @@ from grasptypes.labels.recorded import RecordedGrasp, recorded_grasp
 from grasptypes.objects.object_geometry import ObjectGeometry
 from grasptypes.physics.engine import Engine, Surroundings
 from grasptypes.physics.engines import ENGINES, engine
-from grasptypes.physics.holding import DIRECTIONS, Motion, bear, hold, squeeze
+from grasptypes.physics.holding import DIRECTIONS, Motion, bear, bears_load, hold, squeeze
 from grasptypes.physics.loads import TaskLoad, task_load
 from grasptypes.physics.wrench_space import Body, wrench_space
 from grasptypes.poses import inverse
@@ -30,6 +30,7 @@ from grasptypes.seeds import rng
 from grasptypes.settings.physics import EngineName, PhysicsSettings
 from grasptypes.settings.robustness import LossSettings, RobustnessSettings
 from grasptypes.settings.synthesis import SynthesisSettings
+from grasptypes.settings.tasks import read_tasks
 from grasptypes.synthesis.closing import close_fingers
 from grasptypes.synthesis.hand_model import sample_hand
 from grasptypes.synthesis.scene import GraspScene, grasp_scene
@@ -61,7 +62,7 @@ def test_grasps(
     surface_m = np.asarray(geometry.surface.vertices, dtype=np.float64)
     scene = grasp_scene(hand, sample_hand(hand, settings.synthesis).search, geometry, surface_m)
     loads = {
-        task: task_load(settings.robustness.loads, geometry, task)
+        task: task_load(read_tasks()[task], geometry, settings.physics.gravity_m_s2)
         for task in sorted(set(dataset.Intent))
     }
     loose = loose_test(settings)
@@ -97,7 +98,7 @@ class GraspTests(NamedTuple):
     settings: GraspTestsSettings
     grasp: RecordedGrasp
 
-    def results(self, load: TaskLoad | None, draw: np.random.Generator) -> dict[str, Any]:
+    def results(self, load: TaskLoad, draw: np.random.Generator) -> dict[str, Any]:
         """The columns of a grasp."""
         found: dict[str, Any] = {}
         for name, world in self.worlds.items():
@@ -105,7 +106,7 @@ class GraspTests(NamedTuple):
         share = float(np.mean(list(self._perturbed(draw))))
         return {**found, "robustness": share, **self._wrench_space()}
 
-    def _of_engine(self, world: Engine, load: TaskLoad | None) -> dict[str, Any]:
+    def _of_engine(self, world: Engine, load: TaskLoad) -> dict[str, Any]:
         grasp, test = self.grasp, self.settings.physics
         motions = [self._motion(world, direction) for direction in DIRECTIONS]
         world.settings = test
@@ -120,7 +121,7 @@ class GraspTests(NamedTuple):
                 not _lost(motion, self.settings.robustness.strict_loss) for motion in motions
             ),
             "creep_m_s": _median_creep(motions),
-            "bears_load": not self._loaded(world, load).lost,
+            "bears_load": self._bears_load(world, load),
         }
 
     @property
@@ -133,13 +134,10 @@ class GraspTests(NamedTuple):
         motors = squeeze(world, T, self.grasp.touching_positions)
         return bear(world, motors, T[:3, :3].T @ direction * world.settings.gravity_m_s2)
 
-    def _loaded(self, world: Engine, load: TaskLoad | None) -> Motion:
-        """The motion under gravity and the task's load."""
+    def _bears_load(self, world: Engine, load: TaskLoad) -> bool:
+        """Whether it holds under gravity and the task's load."""
         T = self.grasp.T_object_touching
-        motors = squeeze(world, T, self.grasp.touching_positions)
-        if load is not None:
-            world.push(load.force(T), load.point_m)
-        return bear(world, motors, T[:3, :3].T @ DIRECTIONS[0] * world.settings.gravity_m_s2)
+        return bears_load(world, squeeze(world, T, self.grasp.touching_positions), T, load)
 
     def _perturbed(self, draw: np.random.Generator) -> Iterator[bool]:
         """Whether the grasp holds, for each draw of friction, mass and place of the hand."""

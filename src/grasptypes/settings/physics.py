@@ -64,6 +64,9 @@ class PhysicsSettings(Settings):
     grip_weights: float = setting(
         "force of a fingertip in weights of the object, up to the hand's rated force", ge=0, le=20
     )
+    thumb_share: float = setting(
+        "share of what the thumbs withstand with which the other fingers press at most", gt=0, le=1
+    )
     mujoco: MujocoSettings
 
 

@@ -53,4 +53,3 @@ class RobustnessSettings(Settings):
     perturbations: PerturbationSettings
     cone_edges: int = setting("edges of a friction pyramid of the wrench space", ge=3, le=64)
     film: FilmSettings
-    loads: str = setting("table of the tasks' loads", min_length=1)

@@ -14,6 +14,7 @@ from grasptypes.yaml_files import read_yaml
 
 TASKS = Path(__file__).with_suffix(".yaml")
 Grip = Literal["wrap", "enclose", "tripod", "pinch", "rim"]
+Direction = Literal["axis", "across", "any", "down", "away"]
 Factor = Annotated[float, Field(ge=0, le=100)]
 
 
@@ -25,14 +26,17 @@ def _upwards(values: tuple[float, float]) -> tuple[float, float]:
 
 
 class Wrench(Settings):
-    """The load that a task puts on the object, besides its weight."""
+    """A load that a task puts on the object, besides its weight."""
 
     at: Unique[RoleName] = setting("roles of the parts it acts on; empty: the centre of mass")
-    force_n: float = setting("largest force", ge=0, le=1000)
-    force_along: Literal["axis", "across", "any"] = setting(
-        "along the held part's axis, across it, or in any direction"
+    force_n: float = setting("force", default=0.0, ge=0, le=1000)
+    weights: float = setting(
+        "force in weights of the object, added to it", default=0.0, ge=0, le=100
     )
-    torque_nm: float = setting("largest torque about the held part's axis", ge=0, le=100)
+    along: Direction = setting(
+        "axis: the object's longest axis, to and fro; across: both others; any: all three; "
+        "down: -z of the object; away: from the palm"
+    )
     reason: str = setting("where the numbers come from", min_length=1)
 
 
@@ -52,7 +56,10 @@ class Task(Settings):
         "where along a handle people hold it: 0 next to what stays free, 1 at the far end"
     )
     grips: dict[Grip, Factor] = setting("factors on grips, where not 1")
-    wrench: Wrench
+    wrenches: list[Wrench] = setting(
+        "loads besides the weight: the first one counts that acts on a part of the object",
+        min_length=1,
+    )
     reason: str = setting("why people hold objects this way for it", min_length=1)
 
 

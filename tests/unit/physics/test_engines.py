@@ -37,7 +37,7 @@ def world(request, tmp_path):
 
 def start(world, T, positions):
     world.load(T, positions)
-    motors = Motors(BARRETT, positions, BARRETT.motors.fingertip_force_n)
+    motors = Motors(BARRETT, positions, np.full(3, BARRETT.motors.fingertip_force_n))
     for finger, stage in enumerate(motors.stages):
         world.couple(finger, stage)
     return motors

@@ -147,8 +147,8 @@ def test_motion_counts_from_the_touching_hand(body) -> None:
 def test_a_load_that_is_too_large_is_noted_and_changes_nothing_else(body) -> None:
     with engine("mujoco", BARRETT, body, STILL) as world:
         plain = hold(world, *GOOD)
-        light = hold(world, *GOOD, load=TaskLoad(np.zeros(3), "away", 0.5))
-        heavy = hold(world, *GOOD, load=TaskLoad(np.zeros(3), "away", 500.0))
+        light = hold(world, *GOOD, load=TaskLoad(np.zeros(3), 0.5, "away", np.eye(3)))
+        heavy = hold(world, *GOOD, load=TaskLoad(np.zeros(3), 500.0, "away", np.eye(3)))
     assert plain.bears_load
     assert light.bears_load
     assert not heavy.bears_load

@@ -1,10 +1,12 @@
 """Motors close with the grip force, and withstand being driven back from where they were."""
 
 import numpy as np
+import pytest
 from tests.unit.barrett import BARRETT, COUPLING, DISTAL_M
 from tests.unit.settings import PARAMS
 
-from grasptypes.physics.motors import Motors, grip_force_n
+from grasptypes.hands.reading import load_hand
+from grasptypes.physics.motors import Motors, grip_forces
 
 SETTINGS = PARAMS.physics.test
 MOTORS = BARRETT.motors
@@ -12,8 +14,8 @@ FORCE_N = MOTORS.fingertip_force_n
 ANGLES = BARRETT.couple(np.radians([30.0, 60.0, 60.0, 60.0]))
 
 
-def motors_at(positions=ANGLES, force_n=FORCE_N) -> Motors:
-    return Motors(BARRETT, positions, force_n)
+def motors_at(positions=ANGLES, forces_n=(FORCE_N,) * 3) -> Motors:
+    return Motors(BARRETT, positions, np.array(forces_n))
 
 
 def released(finger: int) -> Motors:
@@ -73,10 +75,18 @@ def test_no_joint_is_held_beyond_its_limit() -> None:
 
 
 def test_the_grip_force_follows_the_weight_within_what_the_hand_can() -> None:
-    light, middle, heavy = (grip_force_n(BARRETT, mass, SETTINGS) for mass in (0.01, 0.4, 5.0))
-    assert light == MOTORS.fingertip_force_n
-    assert middle == SETTINGS.grip_weights * 0.4 * SETTINGS.gravity_m_s2
-    assert heavy == MOTORS.rated_force_n
-    stronger = motors_at(force_n=middle).drive(ANGLES).closing_torques
+    light, middle, heavy = (grip_forces(BARRETT, mass, SETTINGS) for mass in (0.01, 0.3, 5.0))
+    np.testing.assert_array_equal(light, MOTORS.fingertip_force_n)
+    np.testing.assert_allclose(middle, SETTINGS.grip_weights * 0.3 * SETTINGS.gravity_m_s2)
+    assert heavy[2] == MOTORS.rated_force_n
+    stronger = motors_at(forces_n=middle).drive(ANGLES).closing_torques
     gentle = motors_at().drive(ANGLES).closing_torques
-    np.testing.assert_allclose(stronger, middle / FORCE_N * gentle)
+    np.testing.assert_allclose(stronger, middle[0] / FORCE_N * gentle)
+
+
+@pytest.mark.parametrize("name", ["barrett", "robotiq_3f", "allegro", "franka_hand"])
+def test_fingers_never_push_the_thumb_back(name) -> None:
+    hand = load_hand(name)
+    forces = grip_forces(hand, 5.0, SETTINGS)
+    thumbs = np.array([finger.thumb for finger in hand.fingers])
+    assert forces[~thumbs].sum() < hand.motors.passive_force_n * thumbs.sum()
