@@ -111,6 +111,8 @@ class BulletEngine:
             -1,
             localInertiaDiagonal=(moments * mass_share).tolist(),
             lateralFriction=1.0,  # Bullet multiplies the friction of both bodies
+            contactStiffness=self.settings.pybullet.contact_stiffness_n_m,
+            contactDamping=self.settings.pybullet.contact_damping_n_s_m,
             collisionMargin=0.0,
             physicsClientId=client,
         )
@@ -180,7 +182,8 @@ class BulletEngine:
 
     def couple(self, finger: int, stage: int) -> None:
         """Let the joints of a finger that still move follow the first of them, by gears."""
-        client, settings, described = self.client, self.settings, self.hand.fingers[finger]
+        client, described = self.client, self.hand.fingers[finger]
+        settings = self.settings.pybullet
         hand = self._hand_id
         for gear in self._gears.pop(finger, []):
             pybullet.removeConstraint(gear, physicsClientId=client)

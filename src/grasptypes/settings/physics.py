@@ -42,6 +42,17 @@ class MujocoSettings(Settings):
     motor_mass_kg: float = setting("inertia of motor and gears at the fingertip", ge=0, le=1)
 
 
+class BulletSettings(Settings):
+    """How PyBullet couples joints and computes contacts."""
+
+    gear_correction: float = setting(
+        "share of a coupled fingertip's lag that is corrected per time step", gt=0, le=10
+    )
+    gear_torque_nm: float = setting("maximum torque of a finger's coupling", gt=0, le=1000)
+    contact_stiffness_n_m: float = setting("force of a contact per depth", gt=0, le=1e7)
+    contact_damping_n_s_m: float = setting("force of a contact per speed", ge=0, le=1e5)
+
+
 class PhysicsSettings(Settings):
     """The test in physics engines."""
 
@@ -52,10 +63,6 @@ class PhysicsSettings(Settings):
     friction: float = setting("Coulomb coefficient between hand and object", ge=0, le=5)
     gravity_m_s2: float = setting("acceleration of gravity", ge=0, le=100)
     control_steps: int = setting("time steps between commands to the motors", ge=1, le=100)
-    gear_correction: float = setting(
-        "share of a coupled fingertip's lag that is corrected per time step", gt=0, le=10
-    )
-    gear_torque_nm: float = setting("maximum torque of a finger's coupling", gt=0, le=1000)
     squeeze_time_s: float = setting("closing without gravity", gt=0, le=10)
     hold_time_s: float = setting("holding against gravity", ge=0.1, le=60)
     drop_distance_m: float = setting("movement in the hand that counts as dropped", gt=0, le=1)
@@ -67,6 +74,7 @@ class PhysicsSettings(Settings):
     thumb_share: float = setting(
         "share of what the thumbs withstand with which the other fingers press at most", gt=0, le=1
     )
+    pybullet: BulletSettings
     mujoco: MujocoSettings
 
 

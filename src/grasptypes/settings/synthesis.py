@@ -101,7 +101,10 @@ class RefinementSettings(Settings):
 class RankingSettings(Settings):
     """Which grasps are tried."""
 
-    tries: int = setting("maximum number of grasps tried per session", ge=1, le=100)
+    tries: int = setting("maximum number of grasps tried per search", ge=1, le=100)
+    searches: int = setting(
+        "maximum number of searches per session: a further one if no grasp is valid", ge=1, le=10
+    )
     load_tries: int = setting(
         "number of further grasps tried if one is valid but does not bear the task's load", ge=0
     )

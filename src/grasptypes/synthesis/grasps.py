@@ -29,7 +29,7 @@ _TRIAL_COLUMNS = {
     "object": pa.Column(str),
     "task": pa.Column(str),
     "session": pa.Column(int, pa.Check.ge(1), description="person, from 1"),
-    "rank": pa.Column(int, pa.Check.ge(0), description="place by energy, 0 is the best"),
+    "rank": pa.Column(int, pa.Check.ge(0), description="order of tries, from 0: by energy"),
     "energy": pa.Column(float, description="before physics; low is good"),
     **{term: pa.Column(float, description="part of the energy") for term in ENERGY_TERMS},
     "hand_configuration": pa.Column(
@@ -74,7 +74,7 @@ GRASP_SCHEMA = pa.DataFrameSchema(
     {
         **_TRIAL_COLUMNS,
         "tries": pa.Column(int, pa.Check.ge(1), description="grasps that were looked at"),
-        "grip": pa.Column(str, description="the person's, of the affinity table"),
+        "grip": pa.Column(str, description="the person's"),
         "contact_links": pa.Column(object, description="link of each contact, its name"),
         "contact_points_m": pa.Column(object, description="3 numbers a contact, object frame"),
         "contact_normals": pa.Column(object, description="3 a contact, into the object"),

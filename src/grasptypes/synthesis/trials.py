@@ -1,6 +1,6 @@
 """The grasp of a session: candidates are tested in physics by rank until one is valid and still has
 the shape of the person's grip. If there is none, the valid one with the smallest deviation is
-taken.
+taken. A session without a valid grasp searches again.
 """
 
 from __future__ import annotations
@@ -107,14 +107,22 @@ def synthesize_sessions(
     attempts: list[Mapping[str, Any]] = []
     for number, demonstration in enumerate(demonstrations(task.contact_map), start=1):
         key = (task.object_name, task.task, number, task.seed)
-        ranked = search_session(scene, demonstration, settings, rng("synthesis", *key))
         ranges = scene.hand.grips.named(demonstration.grip).shape
         cost = partial(preshape_cost, scene, ranges=ranges, settings=settings.grip_shape)
         kept = settings.grip_shape.kept
-        trials = list(_until_kept(ranked, tester, cost, kept, settings.ranking.load_tries))
+        draw = rng("synthesis", *key)
+        terms: list[Array] = []
+        trials: list[GraspTrial] = []
+        for _ in range(settings.ranking.searches):
+            ranked = search_session(scene, demonstration, settings, draw)
+            found = list(_until_kept(ranked, tester, cost, kept, settings.ranking.load_tries))
+            trials.extend(found)
+            terms.extend(ranked.terms[: len(found)])
+            if any(not trial.reason for trial in found):
+                break
         best = _best(trials, kept)
         rows = [
-            _row(scene, key, ranked.terms[rank], trial, rank, tester.validity)
+            _row(scene, key, terms[rank], trial, rank, tester.validity)
             for rank, trial in enumerate(trials)
         ]
         attempts.extend({**row, "chosen": rank == best} for rank, row in enumerate(rows))

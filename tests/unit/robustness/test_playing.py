@@ -3,7 +3,7 @@
 import numpy as np
 from synthesis_cases import ball_object, closed, palm_at
 from tests.unit.barrett import BARRETT
-from tests.unit.robustness.test_tables import table_of
+from tests.unit.robustness.test_robustness_tables import table_of
 from tests.unit.settings import PARAMS
 
 from grasptypes.labels.recorded import RecordedGrasp
