@@ -20,9 +20,10 @@ from grasptypes.tables import read_table, write_table
 def test_object(
     dataset: str, hand: Hand, geometry: ObjectGeometry, settings: GraspTestsSettings
 ) -> pd.DataFrame:
-    """The tests of all rows of the dataset that hold an object."""
+    """The tests of the rows of the dataset that hold an object, of the first sessions."""
     table = read_table(dataset, dataset_schema(hand))
-    return test_grasps(table[table.Object == geometry.name], hand, geometry, settings)
+    tested = table[(table.Object == geometry.name) & (table.Session <= settings.robustness.sessions)]
+    return test_grasps(tested, hand, geometry, settings)
 
 
 if __name__ == "__main__":

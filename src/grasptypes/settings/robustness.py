@@ -47,6 +47,7 @@ class FilmSettings(Settings):
 class RobustnessSettings(Settings):
     """Tests of recorded grasps."""
 
+    sessions: int = setting("number of sessions of each object and task that are tested", ge=1)
     hold_time_s: float = setting("holding in each direction", ge=0.1, le=60)
     loss: LossSettings
     strict_loss: LossSettings
