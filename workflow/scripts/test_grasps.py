@@ -22,8 +22,8 @@ def test_object(
 ) -> pd.DataFrame:
     """The tests of the rows of the dataset that hold an object, of the first sessions."""
     table = read_table(dataset, dataset_schema(hand))
-    tested = table[(table.Object == geometry.name) & (table.Session <= settings.robustness.sessions)]
-    return test_grasps(tested, hand, geometry, settings)
+    first = table[table.Session <= settings.robustness.sessions]
+    return test_grasps(first[first.Object == geometry.name], hand, geometry, settings)
 
 
 if __name__ == "__main__":
