@@ -16,6 +16,8 @@ from grasptypes.objects.units import UNITS_M
 if TYPE_CHECKING:
     from grasptypes.labels.grasp_type import Label
 
+SUMMARY = "Label grasps of a mesh with their types, and explain each label."
+
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The options of `label`."""

@@ -12,6 +12,8 @@ from pathlib import Path
 
 from grasptypes.commands.settings import add_folder, check_target, printable
 
+SUMMARY = "Show grasps in the browser: of an object, a table or a plan."
+
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The options of `view`."""
