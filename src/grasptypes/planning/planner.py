@@ -16,6 +16,7 @@ from grasptypes.hands.reading import load_hand
 from grasptypes.labels.grasp import Grasp, grasps_of
 from grasptypes.labels.grasp_type import GRASP_TYPES
 from grasptypes.objects.object_geometry import ObjectGeometry
+from grasptypes.physics.engines import check_engines
 from grasptypes.planning.plan_contacts import (
     MeasuredMap,
     grips_of,
@@ -162,6 +163,7 @@ class Planner:
         Raises:
             InputError: an unknown task or type, a mass out of range, or no type although no trained
                 predictor can choose one.
+            ModuleNotFoundError: a physics engine is not installed.
         """
         if task not in self.params.tasks:
             allowed = ", ".join(self.params.tasks)
@@ -178,6 +180,7 @@ class Planner:
 
             self._predictor = Predictor.load(self.folder, params=self.params)
             self._predictor.check_task(task)
+        check_engines(self.params.physics.test.engines)
         return tuple(known_type(name) for name in types)
 
     def _predicted(self, geometry: ObjectGeometry, task: str) -> GraspTypeRequest:
