@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from contextlib import contextmanager
-from importlib import import_module
 from typing import get_args
 
 from grasptypes.hands.hand import Hand
@@ -13,16 +12,6 @@ from grasptypes.physics.engine import Engine
 from grasptypes.settings.physics import EngineName, PhysicsSettings
 
 ENGINES: tuple[EngineName, ...] = get_args(EngineName)
-
-
-def check_engines(names: Sequence[EngineName]) -> None:
-    """Import the libraries of engines, so that a missing one shows before work starts.
-
-    Raises:
-        ModuleNotFoundError: a library is not installed.
-    """
-    for name in names:
-        import_module(name)
 
 
 @contextmanager

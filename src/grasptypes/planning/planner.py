@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -16,7 +17,6 @@ from grasptypes.hands.reading import load_hand
 from grasptypes.labels.grasp import Grasp, grasps_of
 from grasptypes.labels.grasp_type import GRASP_TYPES
 from grasptypes.objects.object_geometry import ObjectGeometry
-from grasptypes.physics.engines import check_engines
 from grasptypes.planning.plan_contacts import (
     MeasuredMap,
     grips_of,
@@ -180,7 +180,8 @@ class Planner:
 
             self._predictor = Predictor.load(self.folder, params=self.params)
             self._predictor.check_task(task)
-        check_engines(self.params.physics.test.engines)
+        for engine in self.params.physics.test.engines:
+            import_module(engine)  # a missing library shows before work starts
         return tuple(known_type(name) for name in types)
 
     def _predicted(self, geometry: ObjectGeometry, task: str) -> GraspTypeRequest:
