@@ -134,12 +134,13 @@ def contact_map(sessions=3) -> ContactMap:
     )
 
 
-def synthesized(world, sessions=3, kept=3.0):
+def synthesized(world, sessions=3, kept=3.0, searches=2):
     settings = PARAMS.synthesis
     settings = settings.changed(
         candidates=settings.candidates.changed(number=60),
         refinement=settings.refinement.changed(parents=4, rounds=1),
         grip_shape=settings.grip_shape.changed(kept=kept),
+        ranking=settings.ranking.changed(searches=searches),
     )
     task = SynthesisTask("ball", "use", None, contact_map(sessions), 0)
     tester = GraspTester(scene_of(), world.hold, VALIDITY)
@@ -185,6 +186,19 @@ def test_without_a_valid_grasp_the_best_is_kept_with_its_reason() -> None:
     assert (grasps["rank"] == 0).all()
     assert (grasps.reason == "dropped").all()
     assert len(attempts) > len(grasps)
+
+
+def test_a_session_without_a_valid_grasp_searches_again() -> None:
+    _, once = synthesized(World([False]), sessions=1, searches=1)
+    _, twice = synthesized(World([False]), sessions=1, searches=2)
+    first = twice.head(len(once)).reset_index(drop=True)
+    pd.testing.assert_frame_equal(first, once)
+    assert len(twice) > len(once)
+    assert twice["rank"].tolist() == list(range(len(twice)))
+    later = World([False] * len(once) + [True])
+    grasps, attempts = synthesized(later, sessions=1, searches=5)
+    assert len(attempts) == len(once) + 1
+    assert grasps["rank"].tolist() == [len(once)]
 
 
 def test_a_session_does_not_depend_on_the_others() -> None:
