@@ -1,4 +1,4 @@
-"""Label grasps of a mesh with their types, and explain each label.
+"""The command `label`.
 
 The label follows from where the hand is and how it is closed; physics is not tested.
 """
@@ -15,6 +15,8 @@ from grasptypes.objects.units import UNITS_M
 
 if TYPE_CHECKING:
     from grasptypes.labels.grasp_type import Label
+
+SUMMARY = "Label grasps of a mesh with their types, and explain each label."
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
