@@ -1,4 +1,4 @@
-"""README and docs: links and anchors lead somewhere, commands exist, and notebooks run."""
+"""README, docs and forms: links lead somewhere, commands exist, notebooks run."""
 
 from __future__ import annotations
 
@@ -7,19 +7,24 @@ import re
 import shlex
 import subprocess
 import sys
+import tomllib
 from pathlib import Path
 
 import pytest
+import yaml
 
 from grasptypes.commands.command_line import parser
+from grasptypes.settings.params import Params
 
 ROOT = Path(__file__).parents[2]
 NOTEBOOKS = sorted((ROOT / "docs").rglob("*.ipynb"))
 PAGES = [
-    *(ROOT / name for name in ("README.md", "CONTRIBUTING.md", "CHANGELOG.md")),
+    *sorted(ROOT.glob("*.md")),
+    ROOT / "config/README.md",
     *sorted((ROOT / "docs").rglob("*.md")),
     *NOTEBOOKS,
 ]
+FORMS = [*sorted((ROOT / ".github").rglob("*.yml")), ROOT / ".snakemake-workflow-catalog.yml"]
 BLOCK = re.compile(r"^( *)```(\w*)\n(.*?)^\1```$", re.M | re.S)
 SHELL = ("", "bash", "console", "sh")
 
@@ -63,7 +68,7 @@ def status(words: list[str]) -> int:
     return 0
 
 
-@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: str(page.relative_to(ROOT)))
 def test_every_link_and_anchor_leads_somewhere(page: Path) -> None:
     for link in re.findall(r"\]\(\s*([^)\s]+)\s*\)", BLOCK.sub("", text_of(page))):
         if "://" in link:
@@ -74,7 +79,7 @@ def test_every_link_and_anchor_leads_somewhere(page: Path) -> None:
         assert not anchor or anchor in anchors(target), link
 
 
-@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: str(page.relative_to(ROOT)))
 def test_every_command_is_one(page: Path, capsys: pytest.CaptureFixture[str]) -> None:
     for words in examples(page):
         assert status(words) == 0, shlex.join(words)
@@ -97,13 +102,27 @@ def test_the_checks_see_commands_and_mistakes() -> None:
 
 def test_every_make_target_is_one() -> None:
     targets = set(re.findall(r"^([a-z][\w-]+):", (ROOT / "Makefile").read_text(), re.M))
-    named = {
-        target
-        for page in PAGES
-        for target in re.findall(r"(?:^ *|`)make ([a-z][\w-]+)", text_of(page), re.M)
-    }
+    texts = [text_of(page) for page in PAGES]
+    texts += [path.read_text() for path in (ROOT / ".github").rglob("*.*")]
+    named = set(re.findall(r"(?:^ *|`|run: )make ([a-z][\w-]+)", "\n".join(texts), re.M))
     assert len(named) > 10
     assert named <= targets
+
+
+def test_the_sections_of_the_configuration_are_described() -> None:
+    described = re.findall(r"`(\w+)`", (ROOT / "config/README.md").read_text())
+    assert set(Params.model_fields) <= set(described)
+
+
+def test_the_citation_has_the_version_of_the_package() -> None:
+    citation = yaml.safe_load((ROOT / "CITATION.cff").read_text())
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
+    assert (citation["version"], citation["license"]) == (project["version"], project["license"])
+
+
+@pytest.mark.parametrize("path", FORMS, ids=lambda path: path.name)
+def test_a_form_of_the_repository_is_yaml(path: Path) -> None:
+    assert isinstance(yaml.safe_load(path.read_text()), dict)
 
 
 @pytest.mark.parametrize("notebook", NOTEBOOKS, ids=lambda path: path.name)
