@@ -113,7 +113,7 @@ results: setup ## copy what README and docs quote from reports/ to docs/results/
 	    if [ -e "$$new" ]; then cp "$$new" "$$file"; else echo "$$file stays: there is no $$new"; fi; done
 
 # Material announces its own successor unless the variable is set.
-docs: setup ## the documentation as a site that opens offline: build/site
+docs: setup ## the documentation as a site: build/site
 	NO_MKDOCS_2_WARNING=1 mkdocs build --strict
 
 release: setup ## the dataset as one folder for other programs: build/release
