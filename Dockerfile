@@ -11,7 +11,7 @@ RUN useradd --create-home --uid 1000 grasptypes && install -d -o grasptypes /opt
 USER grasptypes
 WORKDIR /opt/grasptypes
 
-# The CPU build of torch, if its index is given: --build-arg TORCH_INDEX=<URL> (README, "No GPU?").
+# The CPU build of torch, if its index is given: --build-arg TORCH_INDEX=<URL> (docs/quick_start_workflow.md).
 ARG TORCH_INDEX=""
 COPY --chown=grasptypes requirements.lock ./
 RUN [ -z "$TORCH_INDEX" ] || { python3 -m venv .venv \

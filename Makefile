@@ -16,7 +16,7 @@ export DVC_NO_ANALYTICS := 1
 export MLFLOW_DISABLE_TELEMETRY := true
 
 .PHONY: help setup table1 demo test test-slurm test-workflow bad-input verify coverage mutation bench lint format \
-    publish ui report results release clean lock
+    publish ui report results docs release clean lock
 
 help: ## list the targets
 	@awk -F ':.*## ' '/^[a-z0-9-]+:.*## / {printf "  make %-12s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -111,6 +111,10 @@ report: setup ## the results with captions as one HTML page that opens offline: 
 results: setup ## copy what README and docs quote from reports/ to docs/results/
 	@for file in docs/results/*; do new="reports/$${file##*/}"; \
 	    if [ -e "$$new" ]; then cp "$$new" "$$file"; else echo "$$file stays: there is no $$new"; fi; done
+
+# Material announces its own successor unless the variable is set.
+docs: setup ## the documentation as a site: build/site
+	NO_MKDOCS_2_WARNING=1 mkdocs build --strict
 
 release: setup ## the dataset as one folder for other programs: build/release
 	snakemake -j$(JOBS) objects grasps screenshots renders data/grasps.csv data/samples.csv data/folds.csv

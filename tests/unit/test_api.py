@@ -15,10 +15,9 @@ import grasptypes
 from grasptypes.predictors.weights import WEIGHTS_VARIABLE
 
 
-def readme_snippet():
-    """The code that the README shows."""
-    section = (ROOT / "README.md").read_text().split("## Use it from Python")[1]
-    return re.search(r"```python\n(.*?)```", section, re.S)[1]
+def snippet(page):
+    """The first Python code that a page shows."""
+    return re.search(r"```python\n(.*?)```", (ROOT / page).read_text(), re.S)[1]
 
 
 def run(code, **more):
@@ -43,19 +42,23 @@ def test_the_import_loads_no_library():
     assert done.stdout == "[]\n", done.stderr
 
 
-def test_the_readme_s_code_runs(tmp_path):
+@pytest.mark.parametrize(
+    "page",
+    ["README.md", pytest.param("docs/quick_start_package.md", marks=pytest.mark.slow)],
+)
+def test_the_code_of_a_page_runs(page, tmp_path):
     weights = small_checkout(tmp_path, SMALL_PLANS)
     (tmp_path / "assets").symlink_to(ROOT / "assets")
     trimesh.creation.cylinder(30, 120, sections=48).export(tmp_path / "mug.stl")
     environment = {WEIGHTS_VARIABLE: str(weights.path)}
     pin = "from grasptypes.runtime import pin_runtime; pin_runtime()\n"
-    snippet = readme_snippet()
-    assert len(snippet.splitlines()) <= 10
-    code = f"{pin}import os; os.environ |= {environment}\n{snippet}"
+    shown = snippet(page)
+    assert len(shown.splitlines()) <= 10
+    code = f"{pin}import os; os.environ |= {environment}\n{shown}"
     done = run(code, cwd=tmp_path)
     assert done.returncode == 0, done.stderr
     assert any(kind in done.stdout for kind in grasptypes.GRASP_TYPES)
-    assert (tmp_path / "mug_grasps/plan.json").is_file()
+    assert (tmp_path / "mug_grasps/plan.json").is_file() == ("plan.write" in shown)
 
 
 def test_what_has_drawn_can_still_predict():

@@ -36,13 +36,6 @@ def test_the_readmes_table_is_that_of_the_results() -> None:
             assert shown[name][2] == paper
 
 
-@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
-def test_every_link_leads_somewhere(page: Path) -> None:
-    links = re.findall(r"\]\(([^)#:]+)[)#]", page.read_text())
-    missing = [link for link in links if not (page.parent / link).exists()]
-    assert not missing
-
-
 def test_results_are_quoted_and_the_others_are_not_in_git() -> None:
     quoted = "".join(page.read_text() for page in PAGES)
     assert [path.name for path in RESULTS.iterdir() if path.stem not in quoted] == []

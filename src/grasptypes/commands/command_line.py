@@ -36,10 +36,29 @@ class _Version(argparse.Action):
         parser.exit()
 
 
+class _Completion(argparse.Action):
+    """Prints the script by which a shell completes commands and options."""
+
+    def __call__(
+        self, parser: argparse.ArgumentParser, _: object, shell: object, *__: object
+    ) -> NoReturn:
+        """Exit with status 0."""
+        import shtab
+
+        sys.stdout.write(shtab.complete(parser, str(shell)) + "\n")
+        parser.exit()
+
+
 def parser() -> argparse.ArgumentParser:
     """All commands and their options."""
     whole = _Parser("grasptypes", description="Which grasp should a robot hand use?")
     whole.add_argument("--version", action=_Version, nargs=0, help="print the version")
+    whole.add_argument(
+        "--print-completion",
+        action=_Completion,
+        choices=("bash", "zsh", "tcsh"),
+        help="print the script by which a shell completes commands and options",
+    )
     commands = whole.add_subparsers(dest="command", required=True, metavar="COMMAND")
     for name, module in COMMANDS.items():
         command = commands.add_parser(

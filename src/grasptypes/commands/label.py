@@ -1,4 +1,4 @@
-"""Label grasps of a mesh with their types, and explain each label.
+"""The command `label`.
 
 The label follows from where the hand is and how it is closed; physics is not tested.
 """

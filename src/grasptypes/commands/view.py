@@ -1,4 +1,4 @@
-"""Show grasps in the browser: of an object, a table or a plan.
+"""The command `view`.
 
 The page is served on 127.0.0.1 until Ctrl-C, or written to a file that opens without a network.
 """

@@ -91,3 +91,15 @@ def test_the_version_is_that_of_the_package(capsys):
         main(["--version"])
     assert end.value.code == 0
     assert capsys.readouterr().out == f"grasptypes {version('grasptypes')}\n"
+
+
+def test_a_shell_completes_commands_and_options(capsys):
+    with pytest.raises(SystemExit, match="0"):
+        main(["--print-completion", "bash"])
+    script = capsys.readouterr().out
+    for words, completed in (("pl", "plan"), ("plan --ta", "--task"), ("plan --unit in", "inch")):
+        typed = ["grasptypes", *words.split()]
+        ask = f"COMP_WORDS=({' '.join(typed)}); COMP_CWORD={len(typed) - 1}; _shtab_grasptypes"
+        code = f'{script}\n{ask}; echo "${{COMPREPLY[@]}}"'
+        done = subprocess.run(["bash", "-c", code], capture_output=True, text=True, check=False)
+        assert done.stdout.strip() == completed, done.stderr
