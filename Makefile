@@ -114,6 +114,7 @@ results: setup ## copy what README and docs quote from reports/ to docs/results/
 
 # Material announces its own successor unless the variable is set.
 docs: setup ## the documentation as a site: build/site
+	pip install -q --disable-pip-version-check --no-build-isolation -c requirements.lock -e '.[docs]'
 	NO_MKDOCS_2_WARNING=1 mkdocs build --strict
 
 release: setup ## the dataset as one folder for other programs: build/release
@@ -125,7 +126,7 @@ clean: ## remove what can be rebuilt outside the data: logs, demo, caches
 	rm -rf build logs mutants .coverage* .pytest_cache .ruff_cache .mypy_cache
 
 lock: setup ## write requirements.lock anew from the ranges of pyproject.toml
-	pip-compile --quiet --all-extras --strip-extras --no-header --annotation-style line \
+	pip-compile --quiet --extra workflow --extra dev --extra cluster --strip-extras --no-header --annotation-style line \
 	    --no-emit-index-url --no-emit-find-links --no-emit-trusted-host -o build/all.lock pyproject.toml
 	{ echo "# Written by make lock. The CUDA libraries are left out: torch itself pins the ones its build needs,"; \
 	  echo "# and its CPU build needs none."; \
