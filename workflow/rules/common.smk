@@ -17,7 +17,7 @@ from grasptypes.predictors.weights import DOWNLOAD_SHA256_START, WEIGHTS_VARIABL
 from grasptypes.settings.roles import ROLES
 from grasptypes.settings.tasks import TASKS as TASKS_FILE
 from grasptypes.start_up import check_start
-from grasptypes.viewer.page import PAGE_FILES
+from grasptypes.viewer import PAGE_FILES
 from grasptypes.content_hash import CodeHash, FileHash
 
 PUBLISHED_COUNTS = "assets/published_labels.csv"

@@ -14,12 +14,11 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from grasptypes.hands.hand import Hand
+from grasptypes.viewer import PAGE_FILES
 from grasptypes.viewer.grasp_views import GraspViews, ShownGrasp
 from grasptypes.viewer.shown_object import ShownObject
 
 HERE = Path(__file__).parent
-# What the page is made of besides its data.
-PAGE_FILES = ("page.html", "page.js", "three.min.js")
 # Steps in which a coordinate is stored: a few micrometres on an object of 0.3 m.
 STEPS = 65535
 # Decimals of numbers in the page: a hundredth of a millimetre, a milliradian.
