@@ -26,10 +26,10 @@ def measure(settings: Mapping[str, Any], params: Params) -> Iterator[Figure]:
     pictures = read_pictures(sorted(Path("data/renders").glob("*.zip"))[0])[: settings["pictures"]]
     how, input_px = params.features, params.backbone.input_px
     backbone = load_backbone(weights, input_px)
-    ours = partial(extract, backbone, pictures, {NO_TASK: 0}, how.precision, how.batch)
+    ours = partial(extract, backbone, pictures, {NO_TASK: 0}, how.batch)
     plain = partial(_plain, _network(weights), pictures, input_px, how.batch)
     taken_s = seconds(ours, plain, rounds=settings["rounds"], clock=time.process_time)
-    yield rates(f"features in {how.precision}", "pictures/s", taken_s, len(pictures))
+    yield rates("features", "pictures/s", taken_s, len(pictures))
 
 
 def _network(weights: Weights) -> torchvision.models.MobileNetV2:

@@ -11,12 +11,16 @@ import tempfile
 from collections.abc import MutableMapping
 from pathlib import Path
 
-# What every x86 processor with AVX2 supports. By default, OpenBLAS, NumPy and Numba use whatever
-# the machine has, and a difference in the last digit leads to another grasp.
+# What every x86 processor with AVX2 supports. By default, OpenBLAS, NumPy, Numba, and torch with
+# oneDNN and MKL use whatever the machine has, and a difference in the last digit leads to another
+# grasp. MKL promises the same digits on processors of all makers only in this mode.
 COMMON_INSTRUCTIONS = {
     "OPENBLAS_CORETYPE": "Haswell",
     "NPY_ENABLE_CPU_FEATURES": "X86_V3",
     "NUMBA_CPU_NAME": "haswell",
+    "ATEN_CPU_CAPABILITY": "avx2",
+    "ONEDNN_MAX_CPU_ISA": "AVX2",
+    "MKL_CBWR": "COMPATIBLE",
 }
 # User settings of the same libraries that contradict the values above: NumPy does not start with
 # features both enabled and disabled.

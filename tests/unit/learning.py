@@ -98,7 +98,6 @@ def small_predictor(folder: Path, weights: Weights, model: str = "task_vector") 
         **{"model": model, "labels": "simulated", "types": TYPES, "tasks": tuple(SHIFTS)},
         **{"colour_shifts": SHIFTS, "architecture": sizes, "finetune": "none"},
         **{"backbone": weights.backbone, "weights": weights.name, "input_px": 32},
-        precision="bf16",
     )
     heads = BatchedMLP(sizes, [("a",)])
     with torch.no_grad():

@@ -37,6 +37,9 @@ HOSTILE = {
     "NUMBA_NUM_THREADS": "7",
     "NUMBA_CPU_NAME": "skylake-avx512",
     "NUMBA_CPU_FEATURES": "+avx512f",
+    "ATEN_CPU_CAPABILITY": "default",
+    "ONEDNN_MAX_CPU_ISA": "SSE41",
+    "MKL_CBWR": "AUTO",
     "PYTHONHASHSEED": "7",
     "LP_NUM_THREADS": "7",
     "HOME": "/",
@@ -52,6 +55,27 @@ def used_with(variables: dict[str, str], code: str) -> dict:
     return json.loads(done.stdout.splitlines()[-1])
 
 
+# Layers like those of the backbone and the heads, on numbers that every machine draws alike.
+NETWORK = """
+import hashlib, json, numpy, torch
+draw = numpy.random.default_rng(0).standard_normal
+sizes = (4, 96, 14, 14), (576, 96, 1, 1), (576, 1, 3, 3)
+x, wide, each = (torch.from_numpy(draw(size).astype("f")) for size in sizes)
+x = x.contiguous(memory_format=torch.channels_last)
+x = torch.conv2d(torch.conv2d(x, wide), each, padding=1, groups=576).relu().mean(dim=(2, 3))
+heads = torch.from_numpy(draw((3, 576, 64)).astype("f"))
+y = torch.bmm(x.expand(3, 4, 576), heads)
+directions = torch.linalg.eigh(heads[0].T @ heads[0])[1]
+digests = [hashlib.md5(z.numpy().tobytes()).hexdigest() for z in (x, y, directions)]
+print(json.dumps(digests))
+"""
+# Of features, answers and eigenvectors.
+NETWORK_DIGESTS = [
+    "3e45cbd46b86029695561df9cf9c9354",
+    "665cc64a9d9fba6ccf84bee688948c54",
+    "12e9a3589f6b5b41c75ddbc9403d6167",
+]
+
 PINNED = "from grasptypes.runtime import pin_runtime; pin_runtime()\n" + USED
 
 
@@ -63,6 +87,13 @@ def test_what_users_set_changes_nothing(name):
     assert found["kernels"] == "Haswell"
     assert found["backend"] == "agg"
     assert found["home"] != "/"
+
+
+@pytest.mark.skipif("avx2" not in processor_features(), reason="this processor has no AVX2")
+def test_networks_compute_the_same_bytes_on_every_processor():
+    code = PINNED.removesuffix(USED) + NETWORK
+    assert used_with(HOSTILE, code) == NETWORK_DIGESTS
+    assert used_with({}, code) == NETWORK_DIGESTS
 
 
 def test_the_hostile_settings_are_hostile():

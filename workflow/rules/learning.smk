@@ -91,7 +91,6 @@ rule train_predictor:
         card="models/{labels}/{model}/predictor.json",
     params:
         settings=settings("predictors"),
-        precision=config["features"]["precision"],
         tasks=learning_tasks,
         seed=config["seed"],
         code=script_hash("train_predictor"),

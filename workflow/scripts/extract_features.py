@@ -24,9 +24,7 @@ def extract_features(
     known = BackboneRecord.read(record)
     backbone = load_backbone(known.find_weights(), known.input_px)
     shifts = encodings(tasks)
-    features = extract(
-        backbone, read_pictures(pictures), shifts, settings.precision, settings.batch
-    )
+    features = extract(backbone, read_pictures(pictures), shifts, settings.batch)
     write_npz(target, features)
 
 

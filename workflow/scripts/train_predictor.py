@@ -19,14 +19,8 @@ from grasptypes.settings.predictors import PredictorSettings
 from grasptypes.tables import write_table
 
 
-def train_predictor(
-    problem: LearningProblem, precision: str, seed: int, outputs: Mapping[str, str]
-) -> None:
-    """Train the problem's model and write its tables, tensors and card.
-
-    Args:
-        precision: number format of the frozen features.
-    """
+def train_predictor(problem: LearningProblem, seed: int, outputs: Mapping[str, str]) -> None:
+    """Train the problem's model and write its tables, tensors and card."""
     settings, name = problem.settings, (problem.labels, problem.model)
     key = ("predictor", problem.model, seed)
     members = members_by_group(problem.examples.index["fold"], settings.seeds)
@@ -36,7 +30,7 @@ def train_predictor(
     write_table(outcome.curves, outputs["curves"], CURVE_SCHEMA)
     write_table(outcome.predictions, outputs["predictions"], PREDICTION_SCHEMA)
     heads, tuned = train_final(problem.examples, settings, key, problem.backbone)
-    card = problem.card(heads.architecture, precision)
+    card = problem.card(heads.architecture)
     write_predictor(heads, tuned, card, outputs["tensors"], outputs["card"])
 
 
@@ -47,7 +41,6 @@ if __name__ == "__main__":
         settings = PredictorSettings.check(snakemake.params.settings)
         train_predictor(
             read_problem(dict(snakemake.input.items()), name, snakemake.params.tasks, settings),
-            snakemake.params.precision,
             snakemake.params.seed,
             dict(snakemake.output.items()),
         )

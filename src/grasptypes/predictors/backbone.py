@@ -81,8 +81,7 @@ class Backbone(nn.Module):
         for number, block in enumerate(self.blocks):
             x = block(x)
             if number in self.kind.pooled:
-                # In single precision: bfloat16 would round away the colour shift of a task.
-                pooled.append(x.to(torch.float32).mean(dim=(2, 3)))
+                pooled.append(x.mean(dim=(2, 3)))
         return torch.cat(pooled, dim=1)
 
 

@@ -84,7 +84,6 @@ def extract(
     backbone: Backbone,
     pictures: np.ndarray,
     shifts: Mapping[str, int],
-    precision: str,
     batch: int,
 ) -> dict[str, np.ndarray]:
     """Features of the images in every encoding.
@@ -92,7 +91,6 @@ def extract(
     Args:
         pictures: (N, H, W, 3) uint8.
         shifts: encoding to colour shift, see :func:`encodings`.
-        precision: ``fp32`` or ``bf16`` (autocast; more than twice as fast on CPUs that have it).
         batch: images per batch; affects speed and hardly the result.
 
     Returns:
@@ -102,7 +100,7 @@ def extract(
     features = {}
     for encoding, shift in shifts.items():
         tensor = torch.from_numpy(shift_colours(pictures, shift))
-        parts = [forward(backbone, chunk, precision) for chunk in torch.split(tensor, batch)]
+        parts = [forward(backbone, chunk) for chunk in torch.split(tensor, batch)]
         features[encoding] = torch.cat(parts).numpy()
     return features
 
@@ -113,8 +111,7 @@ def for_inference(backbone: Backbone) -> Backbone:
 
 
 @torch.inference_mode()
-def forward(backbone: Backbone, pictures: torch.Tensor, precision: str) -> torch.Tensor:
+def forward(backbone: Backbone, pictures: torch.Tensor) -> torch.Tensor:
     """Features (B, F) float32 of a batch (B, H, W, 3) uint8, without gradients."""
-    with torch.autocast("cpu", torch.bfloat16, enabled=precision == "bf16"):
-        features: torch.Tensor = backbone(pictures).to(torch.float32)
+    features: torch.Tensor = backbone(pictures)
     return features

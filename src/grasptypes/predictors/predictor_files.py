@@ -36,8 +36,6 @@ class ModelCard(Record):
         weights: name and checksum of the backbone's weights.
         input_px: size of the backbone's input image.
         finetune: ``none`` if the backbone is unchanged from its weights file.
-        precision: number format of the backbone, see :func:`features.forward`: that of the features
-            that the head was trained on.
     """
 
     model: str
@@ -50,7 +48,6 @@ class ModelCard(Record):
     weights: str
     input_px: int
     finetune: str
-    precision: str
 
     @property
     def sees_task(self) -> bool:
@@ -84,7 +81,7 @@ class PredictorNetwork:
             vector = torch.zeros(len(pictures), len(card.tasks))
             vector[:, card.tasks.index(task)] = 1
         tensor = torch.from_numpy(np.ascontiguousarray(pictures))
-        features = forward(self.backbone, tensor, card.precision)
+        features = forward(self.backbone, tensor)
         with torch.inference_mode():
             vectors = None if vector is None else vector[None]
             logits: np.ndarray = self.head(features[None], vectors)[0].numpy()

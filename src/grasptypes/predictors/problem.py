@@ -17,8 +17,6 @@ from grasptypes.predictors.weights import BackboneRecord
 from grasptypes.settings.predictors import PredictorSettings
 from grasptypes.tables import read_table
 
-TRAINED_PRECISION = "fp32"  # of fine-tuning
-
 
 @dataclass(frozen=True)
 class LearningProblem:
@@ -42,12 +40,8 @@ class LearningProblem:
     record: BackboneRecord
     backbone: Backbone | None
 
-    def card(self, architecture: Architecture, precision: str) -> ModelCard:
-        """The card of a predictor trained on this problem.
-
-        Args:
-            precision: number format of the features, for a frozen backbone.
-        """
+    def card(self, architecture: Architecture) -> ModelCard:
+        """The card of a predictor trained on this problem."""
         return ModelCard(
             model=self.model,
             labels=self.labels,
@@ -59,7 +53,6 @@ class LearningProblem:
             weights=self.record.weights,
             input_px=self.record.input_px,
             finetune=self.settings.finetune,
-            precision=precision if self.settings.frozen else TRAINED_PRECISION,
         )
 
 

@@ -19,7 +19,6 @@ class BackboneSettings(Settings):
 class FeatureSettings(Settings):
     """Frozen features of the images."""
 
-    precision: Literal["fp32", "bf16"] = setting("number format of the network")
     batch: int = setting("images per batch", ge=1, le=4096)
 
 

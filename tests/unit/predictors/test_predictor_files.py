@@ -35,19 +35,16 @@ def shown_and_told(card, task):
     return card.colour_shifts[task] if variant.picture_shows_task else 0, vector
 
 
-@pytest.mark.parametrize("precision", ["bf16", "fp32"])
 @pytest.mark.parametrize("model", VARIANTS)
-def test_images_are_seen_as_the_features_that_were_learnt_from(files, weights, model, precision):
+def test_images_are_seen_as_the_features_that_were_learnt_from(files, weights, model):
     learning.small_predictor(files[0].parent, weights, model)
-    card = ModelCard.read(files[1]).changed(precision=precision)
-    write_predictor(load_predictor(*files, weights).head, None, card, *files)
-    assert ModelCard.read(files[1]) == card
+    card = ModelCard.read(files[1])
     predictor = load_predictor(*files, weights)
     logits = {}
     for task in card.tasks:
         shift, told = shown_and_told(card, task)
         backbone = load_backbone(weights, card.input_px)
-        features = extract(backbone, IMAGES, {"shown": shift}, precision, 3)["shown"]
+        features = extract(backbone, IMAGES, {"shown": shift}, 3)["shown"]
         with torch.inference_mode():
             expected = predictor.head(torch.from_numpy(features)[None], told)[0].numpy()
         logits[task] = predictor.logits(IMAGES, task)

@@ -46,15 +46,12 @@ def test_frozen_problems_need_no_backbone_and_others_bring_theirs(files):
 
 def test_the_card_tells_what_the_predictor_needs_to_be_used(files):
     problem = read_problem(files, ("published", "task_in_image"), learning.TASKS, learning.SETTINGS)
-    card = problem.card(Architecture(24, 0, (8, 8, 8), 6), "bf16")
+    card = problem.card(Architecture(24, 0, (8, 8, 8), 6))
     assert (card.model, card.labels, card.finetune) == ("task_in_image", "published", "none")
     assert card.tasks == tuple(learning.TASKS)
     assert card.colour_shifts == dict(learning.TASKS)
     assert card.input_px == 32
     assert card.weights.startswith("random.pth")
-    assert card.precision == "bf16"
-    tuned = read_problem(files, ("published", "no_task"), learning.TASKS, TUNED)
-    assert tuned.card(card.architecture, "bf16").precision == "fp32"  # that of its training
 
 
 def test_weights_other_than_the_recorded_are_refused(files, tmp_path, monkeypatch):
