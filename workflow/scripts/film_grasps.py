@@ -49,7 +49,11 @@ def film_bytes(stage: Stage, camera: Camera, test: pd.Series, grasp: RecordedGra
     parts, T = load_parts(geometry.visual), grasp.T_object_touching
     pictures = film(parts, stage.hand, T, frames, camera, stage.gallery.elevation_rad)
     captioned = [
-        sheet([Group("", [Tile(picture, f"{test.Object}: {frame.happening}")])], 1, len(picture))
+        sheet(
+            [Group("", [Tile(picture, f"{test.Object}, {test.Intent}: {frame.happening}")])],
+            1,
+            len(picture),
+        )
         for picture, frame in zip(pictures, frames, strict=True)
     ]
     return gif_bytes(captioned, how.frame_s * how.slower, how.pause_s)
@@ -62,7 +66,8 @@ def worst_sheet(stage: Stage, camera: Camera, rows: list[tuple[pd.Series, Record
         state = HandStates(stage.hand, grasp.T_object_held[None], grasp.held_positions[None])
         parts = load_parts(read_object(stage.objects / test.Object).visual)
         picture = grasp_picture(parts, state, camera, stage.gallery.elevation_rad)
-        tiles.append(Tile(picture, f"{test.Object} {test.Session}: {withstands(test)}"))
+        name = f"{test.Object}, {test.Intent}, session {test.Session}"
+        tiles.append(Tile(picture, f"{name}\n{withstands(test)}"))
     return sheet([Group("", tiles)], stage.film.worst_columns, stage.gallery.size_px)
 
 
@@ -77,7 +82,9 @@ def film_grasps(
         return recorded_grasp(rows.loc[tuple(test[KEYS])], stage.hand)
 
     with Camera(plain(renders, stage.gallery.size_px)) as camera:
-        for name, index in zip(("held", "lost"), shown_grasps(tests), strict=True):
+        for name, index in zip(
+            ("held", "lost"), shown_grasps(tests, stage.film.engine), strict=True
+        ):
             test = tests.loc[index]
             write_bytes(outputs[name], film_bytes(stage, camera, test, recorded(test)))
         chosen = [

@@ -19,7 +19,7 @@ SMALLER = 0.97
 
 
 class Tile(NamedTuple):
-    """An image (H, W, 3) uint8 and its caption."""
+    """An image (H, W, 3) uint8 and its caption, with as many lines as those beside it."""
 
     picture: NDArray[np.uint8]
     caption: str
@@ -56,8 +56,9 @@ def sheet(groups: Sequence[Group], columns: int, height_px: int) -> NDArray[np.u
 
 def _tile(tile: Tile, width_px: int, height_px: int) -> NDArray[np.uint8]:
     shrunk = Image.fromarray(tile.picture).resize((width_px, height_px), Image.Resampling.LANCZOS)
-    caption = _text(tile.caption, width_px, height_px * CAPTION_SHARE, tile.colour)
-    return np.vstack([caption, np.asarray(shrunk)])
+    letters_px = height_px * CAPTION_SHARE
+    lines = [_text(line, width_px, letters_px, tile.colour) for line in tile.caption.split("\n")]
+    return np.vstack([*lines, np.asarray(shrunk)])
 
 
 def _text(text: str, width_px: int, letters_px: float, colour: str) -> NDArray[np.uint8]:

@@ -14,6 +14,7 @@ from grasptypes.physics.engine import Engine
 from grasptypes.physics.engines import ENGINES
 from grasptypes.physics.holding import DIRECTIONS, load_and_couple, run
 from grasptypes.robustness.tables import SIX
+from grasptypes.settings.physics import EngineName
 
 Array = NDArray[np.float64]
 
@@ -61,10 +62,12 @@ def play(
                 return
 
 
-def shown_grasps(tests: pd.DataFrame) -> tuple[int, int]:
-    """Indices of the most robust valid grasp, and of the valid one that is lost most often."""
-    valid = tests[tests.valid]
-    return int(_ranked(valid).index[-1]), int(_ranked(valid).index[0])
+def shown_grasps(tests: pd.DataFrame, engine: EngineName) -> tuple[int, int]:
+    """Indices of the most robust valid grasp, and of the valid one that is lost most often in the
+    engine that is shown.
+    """
+    ranked = _ranked(tests[tests.valid])
+    return int(ranked.index[-1]), int(ranked[f"directions_{engine}"].idxmin())
 
 
 def worst(tests: pd.DataFrame, count: int) -> pd.DataFrame:
@@ -82,6 +85,6 @@ def _ranked(valid: pd.DataFrame) -> pd.DataFrame:
 
 def withstands(test: pd.Series) -> str:
     """What a grasp withstands, in a few words: sides in each engine, load, share of draws."""
-    held = " and ".join(str(test[f"directions_{name}"]) for name in ENGINES)
+    held = ", ".join(f"{name} {test[f'directions_{name}']} of {SIX}" for name in ENGINES)
     load = all(test[f"bears_load_{name}"] for name in ENGINES)
-    return f"{held} of {SIX} sides, {'' if load else 'no '}load, {test.robustness:.0%} of draws"
+    return f"{held}, {'' if load else 'no '}load, {test.robustness:.0%}"

@@ -77,7 +77,7 @@ def test_other_weights_and_damaged_files_are_rejected(files, weights):
     files[0].write_bytes(files[0].read_bytes()[:-10])
     with pytest.raises(InputError, match=r"predictor\.safetensors"):
         load_predictor(*files, weights)
-    renamed = files[1].read_text().replace('"precision"', '"accuracy"')
+    renamed = files[1].read_text().replace('"finetune"', '"accuracy"')
     for damaged, said in (("{}", "is missing"), (renamed, "'accuracy' is not a known key")):
         files[1].write_text(damaged)
         with pytest.raises(InputError, match=said):

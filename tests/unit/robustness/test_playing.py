@@ -30,5 +30,6 @@ def test_a_held_ball_is_shaken_from_six_sides_and_a_free_one_is_soon_gone(tmp_pa
 
 def test_the_worst_come_first_and_the_best_is_shown() -> None:
     assert worst(TESTS, 2).index.tolist() == [1, 2]
-    assert shown_grasps(TESTS) == (3, 1)
-    assert withstands(TESTS.loc[1]) == "3 and 2 of 6 sides, no load, 33% of draws"
+    assert shown_grasps(TESTS, "pybullet") == (3, 1)
+    assert shown_grasps(TESTS, "mujoco") == (3, 2)
+    assert withstands(TESTS.loc[1]) == "pybullet 3 of 6, mujoco 2 of 6, no load, 33%"
