@@ -8,6 +8,8 @@ VENV ?= .venv
 JOBS ?= 2
 UI_PORT ?= 5057
 VERIFY ?=
+# On a terminal, one display of the progress; Snakemake's log is below .snakemake/log.
+SNAKEMAKE = snakemake $$(test -t 1 && echo --logger rich) -j$(JOBS)
 # `value`, since a path may hold a dollar sign.
 export SETUP_PYTHON := $(value PYTHON)
 export SETUP_VENV := $(if $(filter /%,$(value VENV)),,$(CURDIR)/)$(value VENV)
@@ -25,11 +27,11 @@ setup: ## virtual environment from the lock file, and the off-screen GL library
 	@workflow/envs/set_up.sh
 
 table1: setup ## the main job: from parameters to Table I
-	snakemake -j$(JOBS) reports/table1.csv
+	$(SNAKEMAKE) reports/table1.csv
 
 demo: setup ## the whole pipeline on 2 objects, in build/demo
 	python -m grasptypes.versions.checkout . build/demo tests/small.yaml
-	cd build/demo && snakemake -j$(JOBS) reports/table1.csv && cat reports/table1.md
+	cd build/demo && $(SNAKEMAKE) reports/table1.csv && cat reports/table1.md
 
 # The folder has its own parameters, data, models, reports and dvc.lock; DVC's cache and MLflow's store are shared.
 # It starts with the results at hand, so that only what depends on the hand is computed.
@@ -45,14 +47,14 @@ hand: setup ## the main job with another hand, on a branch in hands/HAND: make h
 
 .PHONY: generalisation scaling test-own lowest
 generalisation: setup ## what more shapes of every object buy on unseen objects: reports/generalisation.csv
-	snakemake -j$(JOBS) reports/generalisation.csv
+	$(SNAKEMAKE) reports/generalisation.csv
 
 test-own: setup ## three tasks, four objects, one of them a mesh with a measured contact map: to Table I
 	pytest -m slow tests/workflow/test_own_things.py
 
 .PHONY: kinds
 kinds: setup ## contact sheets of all kinds of objects: reports/kinds/<group>.png
-	snakemake -j$(JOBS) kind_sheets
+	$(SNAKEMAKE) kind_sheets
 
 scaling: setup ## time and memory against the number of objects: reports/scaling.csv
 	python benchmarks/scaling.py
@@ -96,15 +98,15 @@ format: setup ## rewrite files in the project's style
 	ruff check --fix . && ruff format . && snakefmt Snakefile workflow
 
 publish: setup ## show the trained models in MLflow again; adds nothing that is there already
-	snakemake -j$(JOBS) publish_runs --force
+	$(SNAKEMAKE) publish_runs --force
 
 ui: setup ## publish, then the MLflow UI on 127.0.0.1, few processes
-	-snakemake -j$(JOBS) publish_runs --force
+	-$(SNAKEMAKE) publish_runs --force
 	@python -m grasptypes.runs.ui $(UI_PORT)
 
 report: setup ## the results with captions as one HTML page that opens offline: build/report.html
 	@mkdir -p build
-	snakemake -j$(JOBS) results
+	$(SNAKEMAKE) results
 	python -m grasptypes.reports.timing
 	snakemake shown --report build/report.html --report-stylesheet workflow/report/page.css
 
@@ -118,7 +120,7 @@ docs: setup ## the documentation as a site: build/site
 	NO_MKDOCS_2_WARNING=1 mkdocs build --strict
 
 release: setup ## the dataset as one folder for other programs: build/release
-	snakemake -j$(JOBS) objects grasps screenshots renders data/grasps.csv data/samples.csv data/folds.csv
+	$(SNAKEMAKE) objects grasps screenshots renders data/grasps.csv data/samples.csv data/folds.csv
 	rm -rf build/release
 	python -m grasptypes.release.writing build/release
 
