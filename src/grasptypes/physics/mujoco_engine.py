@@ -34,6 +34,10 @@ OBJECT = "object"
 STIFFEST_STEPS = 2.0
 STIFFEST_SOLIMP = [0.9999, 0.9999, 0.001, 0.5, 2.0]
 
+MEMORY_BYTES = 2**28
+"""What a step may use: a hand in a bowl of many parts has 450 contacts, which need more than
+MuJoCo's own estimate. Only what is used is taken from the machine."""
+
 
 class MujocoEngine:
     """A model of one hand and object. A new load resets its state."""
@@ -183,6 +187,7 @@ class MujocoEngine:
 def _model(hand: Hand, geometry: ObjectGeometry, settings: PhysicsSettings) -> Any:
     """The compiled model of a hand at the world's origin and an object."""
     spec = _hand_spec(hand)
+    spec.memory = MEMORY_BYTES
     option, engine = spec.option, settings.mujoco
     option.timestep = settings.timestep_s
     option.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST

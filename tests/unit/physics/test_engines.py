@@ -10,6 +10,7 @@ from tests.unit.settings import PARAMS
 from grasptypes.hands.folders import hand_names
 from grasptypes.hands.reading import load_hand
 from grasptypes.objects.distance_grid import DistanceGrid
+from grasptypes.objects.object_files import read_collision, write_collision
 from grasptypes.physics.engines import engine
 from grasptypes.physics.holding import hold, run, squeeze
 from grasptypes.physics.motors import Motors
@@ -53,6 +54,16 @@ def test_hand_and_object_start_where_they_are_put(world) -> None:
     world.load(T, positions)
     np.testing.assert_allclose(world.T_hand_object() @ T, np.eye(4), atol=1e-6)
     np.testing.assert_allclose(world.joint_positions(), positions, atol=1e-9)
+
+
+def test_hundreds_of_contacts_are_no_error(tmp_path) -> None:
+    ball = ball_object(tmp_path)
+    parts = list(read_collision(ball.collision))
+    write_collision(ball.collision, parts * 150)
+    with engine("mujoco", BARRETT, ball, SETTINGS) as world:
+        start(world, *TIPS)
+        world.step(1)
+        assert len(world.contacts()) > 450
 
 
 def test_a_free_object_falls_as_gravity_says_and_does_not_turn(world) -> None:
