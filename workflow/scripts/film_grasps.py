@@ -21,7 +21,15 @@ from grasptypes.renders.grasp_film import film, gif_bytes
 from grasptypes.renders.renderer import Camera, png_bytes
 from grasptypes.renders.scene import load_parts
 from grasptypes.reports.sheets import Group, Tile, sheet
-from grasptypes.robustness.playing import play, shown_grasps, withstands, worst
+from grasptypes.robustness.playing import (
+    Frame,
+    displacement,
+    lost_grasps,
+    most_robust,
+    play,
+    withstands,
+    worst,
+)
 from grasptypes.robustness.tables import ROBUSTNESS_SCHEMA
 from grasptypes.settings.physics import PhysicsSettings
 from grasptypes.settings.renders import CameraSettings, GallerySettings
@@ -41,19 +49,31 @@ class Stage(NamedTuple):
     gallery: GallerySettings
 
 
-def film_bytes(stage: Stage, camera: Camera, test: pd.Series, grasp: RecordedGrasp) -> bytes:
-    """An animation of a grasp."""
+class Scene(NamedTuple):
+    """A grasp as it plays."""
+
+    test: pd.Series
+    grasp: RecordedGrasp
+    frames: list[Frame]
+
+
+def scene(stage: Stage, test: pd.Series, grasp: RecordedGrasp) -> Scene:
+    """Play a grasp in the engine that is shown."""
     geometry, how = read_object(stage.objects / test.Object), stage.film
     with engine(how.engine, stage.hand, geometry, stage.physics) as world:
         frames = list(play(world, grasp, how.frame_s, how.direction_s, how.lost_m))
-    parts, T = load_parts(geometry.visual), grasp.T_object_touching
+    return Scene(test, grasp, frames)
+
+
+def film_bytes(stage: Stage, camera: Camera, shown: Scene) -> bytes:
+    """An animation of a grasp."""
+    test, grasp, frames = shown
+    how, T = stage.film, grasp.T_object_touching
+    parts = load_parts(read_object(stage.objects / test.Object).visual)
     pictures = film(parts, stage.hand, T, frames, camera, stage.gallery.elevation_rad)
+    name = f"{test.Object}, {test.Intent}"
     captioned = [
-        sheet(
-            [Group("", [Tile(picture, f"{test.Object}, {test.Intent}: {frame.happening}")])],
-            1,
-            len(picture),
-        )
+        sheet([Group("", [Tile(picture, f"{name}: {frame.happening}")])], 1, len(picture))
         for picture, frame in zip(pictures, frames, strict=True)
     ]
     return gif_bytes(captioned, how.frame_s * how.slower, how.pause_s)
@@ -81,12 +101,18 @@ def film_grasps(
     def recorded(test: pd.Series) -> RecordedGrasp:
         return recorded_grasp(rows.loc[tuple(test[KEYS])], stage.hand)
 
+    def played(index: int) -> Scene:
+        return scene(stage, tests.loc[index], recorded(tests.loc[index]))
+
+    held, lost = played(most_robust(tests)), None
+    for index in lost_grasps(tests, stage.film.engine):
+        lost = played(index)
+        # Some objects only turn between the fingers; one that falls is easier to see.
+        if displacement(lost.frames) > stage.film.lost_m:
+            break
     with Camera(plain(renders, stage.gallery.size_px)) as camera:
-        for name, index in zip(
-            ("held", "lost"), shown_grasps(tests, stage.film.engine), strict=True
-        ):
-            test = tests.loc[index]
-            write_bytes(outputs[name], film_bytes(stage, camera, test, recorded(test)))
+        write_bytes(outputs["held"], film_bytes(stage, camera, held))
+        write_bytes(outputs["lost"], film_bytes(stage, camera, lost or held))
         chosen = [
             (test, recorded(test)) for _, test in worst(tests, stage.film.worst).iterrows()
         ]  # fmt: skip

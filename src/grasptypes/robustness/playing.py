@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -62,12 +62,21 @@ def play(
                 return
 
 
-def shown_grasps(tests: pd.DataFrame, engine: EngineName) -> tuple[int, int]:
-    """Indices of the most robust valid grasp, and of the valid one that is lost most often in the
-    engine that is shown.
-    """
+def displacement(frames: Sequence[Frame]) -> float:
+    """How far (m) the object is from where it was at the start of a play."""
+    first, last = (frames[at].T_hand_object[:3, 3] for at in (0, -1))
+    return float(np.linalg.norm(last - first))
+
+
+def most_robust(tests: pd.DataFrame) -> int:
+    """Index of the valid grasp that withstands most."""
+    return int(_ranked(tests[tests.valid]).index[-1])
+
+
+def lost_grasps(tests: pd.DataFrame, engine: EngineName) -> list[int]:
+    """Indices of the valid grasps that are lost in an engine, those that fail most tests first."""
     ranked = _ranked(tests[tests.valid])
-    return int(ranked.index[-1]), int(ranked[f"directions_{engine}"].idxmin())
+    return [int(index) for index in ranked.index[ranked[f"directions_{engine}"] < SIX]]
 
 
 def worst(tests: pd.DataFrame, count: int) -> pd.DataFrame:

@@ -8,7 +8,14 @@ from tests.unit.settings import PARAMS
 
 from grasptypes.labels.recorded import RecordedGrasp
 from grasptypes.physics.engines import engine
-from grasptypes.robustness.playing import play, shown_grasps, withstands, worst
+from grasptypes.robustness.playing import (
+    displacement,
+    lost_grasps,
+    most_robust,
+    play,
+    withstands,
+    worst,
+)
 
 SETTINGS = PARAMS.physics.test
 TESTS = table_of([(6, 6), (3, 2), (6, 1), (6, 6)], True)
@@ -26,10 +33,13 @@ def test_a_held_ball_is_shaken_from_six_sides_and_a_free_one_is_soon_gone(tmp_pa
     assert len({frame.happening for frame in held}) == 7
     assert len(held) == 5 + 6 * 2
     assert free[-1].happening == "gravity along -z"
+    assert displacement(held) < 0.01
+    assert displacement(free) > 0.1
 
 
 def test_the_worst_come_first_and_the_best_is_shown() -> None:
     assert worst(TESTS, 2).index.tolist() == [1, 2]
-    assert shown_grasps(TESTS, "pybullet") == (3, 1)
-    assert shown_grasps(TESTS, "mujoco") == (3, 2)
+    assert most_robust(TESTS) == 3
+    assert lost_grasps(TESTS, "pybullet") == [1]
+    assert lost_grasps(TESTS, "mujoco") == [1, 2]
     assert withstands(TESTS.loc[1]) == "pybullet 3 of 6, mujoco 2 of 6, no load, 33%"
