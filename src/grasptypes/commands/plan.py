@@ -9,10 +9,11 @@ import argparse
 import sys
 from pathlib import Path
 
-from grasptypes.commands.settings import add_folder, check_place, printable
+from grasptypes.commands.settings import add_folder, check_place, printable, read_task
 from grasptypes.errors import InputError
 from grasptypes.files import json_text
 from grasptypes.objects.units import UNITS_M
+from grasptypes.settings.params import checkout_params
 
 SUMMARY = "Plan grasps of a mesh for a task: searched, tested in physics, labelled and ranked."
 # `GRASP_TYPES` without the last, for a fast help text; a test keeps both consistent.
@@ -22,7 +23,7 @@ TYPES = "Large Wrap, Medium Wrap, Small Wrap, Power Sphere, Precision Sphere, Pr
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The options of `plan`."""
     parser.add_argument("--object", type=Path, required=True, help="a mesh (STL, OBJ, PLY, GLB)")
-    parser.add_argument("--task", required=True, help="task, e.g. use")
+    parser.add_argument("--task", required=True, help="task, by name or in words, e.g. use")
     parser.add_argument(
         "--unit", choices=UNITS_M, default="m", help="unit of mesh and contact map (default: m)"
     )
@@ -56,7 +57,8 @@ def run(args: argparse.Namespace) -> str:
     Raises:
         InputError: an argument is wrong; nothing is written.
     """
-    output = args.output or Path(f"{args.object.stem}_{args.task}_grasps")
+    task = read_task(args.task, checkout_params(args.folder).tasks)
+    output = args.output or Path(f"{args.object.stem}_{task}_grasps")
     _check_output(output)
 
     from grasptypes.objects.loading import load_object
@@ -66,7 +68,7 @@ def run(args: argparse.Namespace) -> str:
 
     planner = Planner(args.folder, hand=args.hand, jobs=args.jobs, tell=_tell)
     # Check everything before anything is computed.
-    planner.check_request(args.task, args.type, args.mass_kg)
+    planner.check_request(task, args.type, args.mass_kg)
     scan = MeasuredMap(args.contact_map, UNITS_M[args.unit]) if args.contact_map else None
     if scan:
         scan.read()
@@ -77,7 +79,7 @@ def run(args: argparse.Namespace) -> str:
         name=printable(args.object.stem),
         settings=planner.params.objects,
     )
-    plan = planner.plan(geometry, args.task, args.type, contact_map=scan, sessions=args.sessions)
+    plan = planner.plan(geometry, task, args.type, contact_map=scan, sessions=args.sessions)
     plan.write(output)
     summary = summarise(plan)
     if args.json:

@@ -13,7 +13,7 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from grasptypes.commands.settings import add_folder, check_target, printable
+from grasptypes.commands.settings import add_folder, check_target, printable, read_task
 from grasptypes.errors import InputError
 from grasptypes.objects.units import UNITS_M
 from grasptypes.renders.photos import check_photo, photo_files, read_background, read_photo
@@ -36,7 +36,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--background", metavar="COLOUR", help="colour behind transparent pixels, e.g. white"
     )
     parser.add_argument("--unit", choices=UNITS_M, help="unit of the mesh (default: m)")
-    parser.add_argument("--task", help="task, e.g. use")
+    parser.add_argument("--task", help="task, by name or in words, e.g. use")
     parser.add_argument("--model", help="a, b, c, d (row of Table I) or its name")
     parser.add_argument("--labels", help="labels the model was trained on: simulated or published")
     parser.add_argument("--json", action="store_true", help="print JSON")
@@ -70,7 +70,7 @@ def run(args: argparse.Namespace) -> str:
     from grasptypes.predictors.prediction import Predictor, report
 
     predictor = Predictor.load(args.folder, labels=args.labels, model=args.model, params=params)
-    task = predictor.check_task(args.task)
+    task = predictor.check_task(args.task and read_task(args.task, predictor.card.tasks))
     if args.object:
         from grasptypes.objects.loading import own_object
 

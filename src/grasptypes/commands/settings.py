@@ -1,14 +1,17 @@
-"""Shared by the commands: an option, printable names, and checks of output paths."""
+"""Shared by the commands: options, printable names, and checks of output paths."""
 
 from __future__ import annotations
 
 import argparse
 import errno
+import sys
 import tempfile
+from collections.abc import Collection
 from pathlib import Path
 
 from grasptypes.errors import InputError
 from grasptypes.files import staging_name
+from grasptypes.settings.task_words import find_task
 
 
 def printable(name: str) -> str:
@@ -24,6 +27,18 @@ def add_folder(parser: argparse.ArgumentParser) -> None:
         help="checkout whose params.yaml and models are used (default: the current folder; "
         "if it has no params.yaml, the parameters that come with the package)",
     )
+
+
+def read_task(text: str, known: Collection[str]) -> str:
+    """The known task that --task names, by name or in words; says on stderr how words are taken.
+
+    Raises:
+        InputError: the text names no known task, or several equally.
+    """
+    task = find_task(text, known)
+    if task != text:
+        sys.stderr.write(f"task: {task}\n")
+    return task
 
 
 def check_target(path: Path, suffix: str) -> None:

@@ -65,6 +65,8 @@ def test_the_command_says_what_the_predictor_says(predict, checkout):
         list(answer["probability"].values()), softmax(logits, axis=-1), atol=1e-6
     )
     assert answer["chosen"] == [t for t, yes in zip(TYPES, logits > 0, strict=True) if yes]
+    worded, told, _ = predict("--image", "photo.png", "--task", "rinse the cup", "--json")
+    assert (json.loads(worded), told) == (said, "task: wash\n")
     other = json.loads(predict("--image", "photo.png", "--task", "use", "--json")[0])
     assert other["answers"] != said["answers"]
 
@@ -104,7 +106,7 @@ def _huge(folder):
 @pytest.mark.parametrize(
     ("arguments", "expected"),
     [
-        (("--task", "fly"), "error: --task: fly: unknown; allowed: use, handoff, wash"),
+        (("--task", "fly"), "error: --task: fly: names no known task; nearest: use,"),
         ((), "error: --task: is needed; allowed: use, handoff, wash"),
     ],
 )
