@@ -1,5 +1,7 @@
 # Details behind the tables: grasp types, objects, folds, losses, and the cost of the jobs.
 NAMES = [(labels, model) for labels in LABELS for model in MODELS]
+# Label sources with tasks to compare.
+COMPARED = [labels for labels in LABELS if len(KNOWN[labels].tasks) > 1]
 
 
 rule tabulate_types:
@@ -92,6 +94,37 @@ rule plot_losses:
         "Drawing the losses"
     script:
         "../scripts/plot_losses.py"
+
+
+rule analyse_labels:
+    input:
+        samples=[SAMPLES[labels] for labels in COMPARED],
+    output:
+        table=report(
+            "reports/label_analysis.csv",
+            caption="../report/label_analysis.rst",
+            category="Grasp types",
+            labels={"subject": "label analysis", "kind": "table"},
+        ),
+        figure=report(
+            "reports/figures/label_analysis.png",
+            caption="../report/label_analysis.rst",
+            category="Grasp types",
+            labels={"subject": "label analysis", "kind": "figure"},
+        ),
+        changes=report(
+            "reports/figures/task_changes.png",
+            caption="../report/task_changes.rst",
+            category="Grasp types",
+            labels={"subject": "task changes", "kind": "figure"},
+        ),
+    params:
+        labels=COMPARED,
+        code=script_hash("analyse_labels"),
+    message:
+        "Analysing the labels"
+    script:
+        "../scripts/analyse_labels.py"
 
 
 # The cost of jobs differs between runs: `make report` draws it from this machine's benchmarks, and
