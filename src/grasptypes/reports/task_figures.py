@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -79,7 +80,11 @@ def _objects(axes: Axes, rows: pd.DataFrame) -> None:
     axes.set_ylim(len(rows) - 0.4, -0.6)
     axes.grid(axis="x", alpha=0.3)
     axes.set_axisbelow(True)
-    below = {"loc": "upper center", "bbox_to_anchor": (0.5, -0.09), "frameon": False}
+    below: dict[str, Any] = {
+        "loc": "upper center",
+        "bbox_to_anchor": (0.5, -0.09),
+        "frameon": False,
+    }
     axes.legend(**below, ncols=3, fontsize=8, columnspacing=0.8, handletextpad=0.4, handlelength=1)
 
 
@@ -108,7 +113,7 @@ def draw_changes(samples: Mapping[str, pd.DataFrame]) -> Figure:
         for row, column in np.argwhere(np.abs(numbers) >= 0.005):
             value = numbers[row, column]
             colour = "white" if abs(value) > 0.6 * LARGEST else "black"
-            style = {"ha": "center", "va": "center", "color": colour, "fontsize": 8}
+            style: dict[str, Any] = {"ha": "center", "va": "center", "color": colour, "fontsize": 8}
             axes.text(column, row, f"{100 * value:+.0f}", **style)
     label = "change of the share of sessions (numbers: percentage points)"
     ticks = np.linspace(-LARGEST, LARGEST, 5)
