@@ -100,6 +100,8 @@ def test_the_command_serves_it_on_this_machine(
         [sys.executable, "-m", "grasptypes", "view", str(dataset), "--no-browser"],
         stdout=subprocess.PIPE,
         text=True,
+        # Tests that run in the background ignore the key, and their children would, too.
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler),
     )
     try:
         assert process.stdout is not None
