@@ -125,6 +125,7 @@ def _nearest(words: Sequence[str], known: Collection[str]) -> list[str]:
     lexicon = read_lexicon().tasks
 
     def nearness(name: str) -> tuple[int, float]:
+        """Nouns of a task in the text, then the closest spelling of its name or expressions."""
         task = lexicon.get(name)
         verbs = [name, *(task.expressions if task else [])]
         pairs = [SequenceMatcher(None, verb, word).ratio() for verb in verbs for word in words]
