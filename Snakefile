@@ -55,6 +55,7 @@ include: "workflow/rules/planning.smk"
 include: "workflow/rules/tracking.smk"
 include: "workflow/rules/kinds_common.smk"
 include: "workflow/rules/kinds.smk"
+include: "workflow/rules/segmentation.smk"
 
 
 wildcard_constraints:

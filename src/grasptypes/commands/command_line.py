@@ -12,11 +12,18 @@ from concurrent.futures.process import BrokenProcessPool
 from importlib.metadata import version
 from typing import NoReturn
 
-from grasptypes.commands import hand, label, plan, predict, view
+from grasptypes.commands import hand, inspect, label, plan, predict, view
 from grasptypes.errors import InputError, InputErrors
 from grasptypes.extras import MissingExtraError, missing_extra
 
-COMMANDS = {"predict": predict, "plan": plan, "label": label, "view": view, "hand": hand}
+COMMANDS = {
+    "predict": predict,
+    "plan": plan,
+    "inspect": inspect,
+    "label": label,
+    "view": view,
+    "hand": hand,
+}
 
 
 class _Parser(argparse.ArgumentParser):

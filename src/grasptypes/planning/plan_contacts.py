@@ -1,4 +1,4 @@
-"""Where the hands of a plan touch: where a scan is warm, or anywhere, with given grips."""
+"""Where the hands of a plan touch: on parts that people hold, where a scan is warm, or anywhere."""
 
 from __future__ import annotations
 
@@ -10,8 +10,14 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from grasptypes.contact_maps.contact_map import ContactMap, MapTask, Session, of_sessions
-from grasptypes.contact_maps.hold import GRIP_OF_TYPE
+from grasptypes.contact_maps.contact_map import (
+    ContactMap,
+    MapTask,
+    Session,
+    draw_session,
+    of_sessions,
+)
+from grasptypes.contact_maps.hold import GRIP_OF_TYPE, Hold
 from grasptypes.contact_maps.measured_contacts import draw_measured_session, read_probability
 from grasptypes.errors import InputError
 from grasptypes.hands.hand import Hand
@@ -46,6 +52,29 @@ def grips_of(types: Sequence[str]) -> tuple[str, ...]:
 def missing_types(hand: Hand, types: Sequence[str] = tuple(GRIP_OF_TYPE)) -> list[str]:
     """Those of the grasp types whose grip the hand cannot perform."""
     return [kind for kind in types if GRIP_OF_TYPE[kind] in hand.grips.instead]
+
+
+def hold_parts(task: MapTask, holds: Sequence[Hold], grips: Sequence[str]) -> PlanContacts | None:
+    """Sessions with the holds of an object's parts, as often as people choose them.
+
+    Args:
+        task: whose points have these parts, see `part_holds`.
+        grips: grips to use; if people use none of them on this object, they use their own.
+
+    Returns:
+        None if there are no holds, or nobody can hold the object in any of these ways.
+    """
+    kept = [hold for hold in holds if hold.grip in grips] or list(holds)
+    people = {}
+    for number in range(1, task.settings.sessions + 1) if kept else ():
+        try:
+            people[number] = draw_session(task, kept, number)
+        except InputError:  # in no placement do thumb and fingers find opposing sides
+            continue
+    if not people:
+        return None
+    probability = np.mean([person.contact for person in people.values()], axis=0)
+    return PlanContacts(of_sessions(task, probability, list(people.values())), tuple(people))
 
 
 def plan_contacts(

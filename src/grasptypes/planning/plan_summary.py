@@ -22,6 +22,7 @@ def summarise(plan: Plan) -> dict[str, Any]:
         "wanted_types": list(types),
         "chosen_by": plan.request.chosen_by,
         "contact_map": plan.contact_map,
+        "parts": plan.parts and plan.parts.summary(),
         "sessions": len(grasps),
         "tries": len(plan.attempts),
         "valid": int(grasps.valid.sum()),

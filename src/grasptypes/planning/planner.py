@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from importlib import import_module
 from pathlib import Path
@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import pandas as pd
 
 from grasptypes.contact_maps.contact_map import MapTask
+from grasptypes.contact_maps.part_holds import part_holds
 from grasptypes.errors import InputError
 from grasptypes.hands.hand import Hand
 from grasptypes.hands.reading import load_hand
@@ -19,13 +20,19 @@ from grasptypes.labels.grasp_type import GRASP_TYPES
 from grasptypes.objects.object_geometry import ObjectGeometry
 from grasptypes.planning.plan_contacts import (
     MeasuredMap,
+    PlanContacts,
     grips_of,
+    hold_parts,
     missing_types,
     plan_contacts,
 )
 from grasptypes.planning.sessions import PlanningContext, plan_sessions
 from grasptypes.renders.mesh_views import MESH_WORD
+from grasptypes.segmentation.known_parts import known_parts
+from grasptypes.segmentation.parts import Parts, described
 from grasptypes.settings.params import Params, checkout_params
+from grasptypes.settings.roles import PartRole
+from grasptypes.settings.tasks import read_tasks
 
 if TYPE_CHECKING:
     from grasptypes.predictors.prediction import Predictor
@@ -47,6 +54,7 @@ class Plan:
         hand: the hand that grasps.
         params: parameters of the plan.
         contact_map: name of the measured map, if any.
+        parts: the parts that people hold; None with a measured map.
         attempts: one row per grasp tried, labelled: columns of `grasps.ATTEMPT_SCHEMA` and
             `dataset.label_grasps`, `grip` and `tries`.
         ranking: the chosen attempts, one per session, best first.
@@ -58,6 +66,7 @@ class Plan:
     hand: Hand
     params: Params
     contact_map: str | None
+    parts: Parts | None
     attempts: pd.DataFrame
     ranking: pd.DataFrame
 
@@ -116,6 +125,7 @@ class Planner:
         types: Sequence[str] = (),
         *,
         contact_map: MeasuredMap | None = None,
+        roles: Mapping[str, PartRole] | None = None,
         sessions: int | None = None,
     ) -> Plan:
         """Plan ranked grasps of an object for a task.
@@ -124,7 +134,9 @@ class Planner:
             object: object from `load_object`.
             types: requested grasp types, which rank before all others; default: chosen by the
                 predictor.
-            contact_map: where to touch the object; default: anywhere.
+            contact_map: where to touch the object; default: where people hold its parts.
+            roles: role of each part by name; default: those in the object's file, or those that
+                its shape tells.
             sessions: number of ways of holding to search, one grasp each.
 
         Raises:
@@ -139,7 +151,13 @@ class Planner:
         settings = self.params.contact_maps.changed(sessions=sessions or self.params.plan.sessions)
         name, seed_number = (MESH_WORD, task), self.params.seed
         drawn = MapTask.of_object(object, name, seed_number, settings)
-        contacts = plan_contacts(drawn, contact_map, grips_of(request.types), source)
+        grips, parts = grips_of(request.types), None
+        contacts = None
+        if contact_map is None:
+            parts = known_parts(object, drawn.points, self.params.segmentation, roles)
+            contacts = self._hold_parts(object, drawn, parts, grips)
+        if contacts is None:
+            contacts = plan_contacts(drawn, contact_map, grips, source)
         if left_out := settings.sessions - len(contacts.numbers):
             self.tell(
                 f"skipped {left_out} of {settings.sessions} ways of holding: "
@@ -149,7 +167,18 @@ class Planner:
         context = PlanningContext(object, task, MESH_WORD, self.hand.folder, self.params)
         attempts, ranking = plan_sessions(context, contacts, request.types, self.jobs, self.tell)
         used = contact_map.path.name if contact_map else None
-        return Plan(object, task, request, self.hand, self.params, used, attempts, ranking)
+        return Plan(object, task, request, self.hand, self.params, used, parts, attempts, ranking)
+
+    def _hold_parts(
+        self, geometry: ObjectGeometry, drawn: MapTask, parts: Parts, grips: Sequence[str]
+    ) -> PlanContacts | None:
+        """Where people hold these parts; None, and a message, if there is nothing to hold."""
+        task = drawn.name[1]
+        self.tell(f"parts by {parts.basis}: {described(parts)}")
+        contacts = hold_parts(*part_holds(drawn, geometry, parts, read_tasks()[task]), grips)
+        if contacts is None:
+            self.tell(f"people hold none of these parts for {task}: every place is as good as any")
+        return contacts
 
     def check_request(
         self, task: str, types: Sequence[str], mass_kg: float | None, source: str = ""

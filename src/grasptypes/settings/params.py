@@ -25,6 +25,7 @@ from grasptypes.settings.predictors import (
 )
 from grasptypes.settings.renders import ContactPictureSettings, GallerySettings, RenderSettings
 from grasptypes.settings.robustness import RobustnessSettings
+from grasptypes.settings.segmentation import SegmentationSettings
 from grasptypes.settings.synthesis import SynthesisSettings
 from grasptypes.settings.tasks import TASKS, read_tasks
 from grasptypes.yaml_files import read_yaml
@@ -54,6 +55,7 @@ class Params(Settings):
     )
     objects: ObjectSettings
     kinds: KindSettings
+    segmentation: SegmentationSettings
     contact_maps: ContactMapSettings
     published: PublishedSettings
     replay: ReplaySettings

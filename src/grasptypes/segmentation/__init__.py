@@ -1,0 +1,1 @@
+"""Parts and their roles found in the shape of a mesh that names none."""

@@ -1,0 +1,74 @@
+# Parts and roles from shape: a network that learns from kinds, tested on families that it has not seen and on scans.
+# `snakemake -j2 data/segmentation/network.npz` makes the file that comes with the package.
+
+
+rule sample_kinds:
+    output:
+        samples="data/segmentation/samples/{group}.npz",
+    wildcard_constraints:
+        group="[a-z]+",
+    params:
+        settings=settings("segmentation"),
+        names=lambda wildcards: kinds_of(wildcards.group),
+        blocks=lambda wildcards: kind_hash(*kinds_of(wildcards.group)),
+        code=script_hash("sample_kinds"),
+    message:
+        "Sampling the shapes of {wildcards.group}"
+    script:
+        "../scripts/sample_kinds.py"
+
+
+def kind_samples(wildcards):
+    """The samples of all groups with chosen kinds."""
+    groups = {kind_names()[kind]: None for kind in kinds_of()}
+    return expand(rules.sample_kinds.output.samples, group=groups)
+
+
+rule train_role_network:
+    input:
+        samples=kind_samples,
+    output:
+        network="data/segmentation/network.npz",
+    params:
+        settings=config["segmentation"]["training"],
+        seed=config["seed"],
+        code=script_hash("train_role_network"),
+    message:
+        "Training the network that names roles"
+    script:
+        "../scripts/train_role_network.py"
+
+
+rule evaluate_roles:
+    input:
+        samples=kind_samples,
+    output:
+        kinds="reports/segmentation/kinds.csv",
+        roles="reports/segmentation/roles.csv",
+    params:
+        settings=settings("segmentation"),
+        seed=config["seed"],
+        code=script_hash("evaluate_roles"),
+    message:
+        "Testing the network that names roles on families that it has not seen"
+    script:
+        "../scripts/evaluate_roles.py"
+
+
+# For those who have scans: GRASPTYPES_REFERENCE_MESHES. The roles of a scan are those of our own model of the object.
+rule evaluate_roles_on_scans:
+    input:
+        network=rules.train_role_network.output.network,
+    output:
+        table="reports/segmentation/scans.csv",
+    params:
+        settings=settings("segmentation"),
+        scale=config["objects"]["scale"],
+        resolution=config["objects"]["resolution"],
+        scans=REFERENCE_MESHES,
+        hashes=hashes(REFERENCE_MESHES),
+        code=script_hash("evaluate_roles_on_scans"),
+    message:
+        "Testing the network that names roles on scans"
+    script:
+        "../scripts/evaluate_roles_on_scans.py"
