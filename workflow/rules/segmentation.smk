@@ -72,3 +72,37 @@ rule evaluate_roles_on_scans:
         "Testing the network that names roles on scans"
     script:
         "../scripts/evaluate_roles_on_scans.py"
+
+
+SCANS = {Path(path).stem: path for path in REFERENCE_MESHES}
+
+
+rule plan_scan:
+    output:
+        table="data/segmentation/plans/{scan}.csv",
+    wildcard_constraints:
+        scan="|".join(SCANS) or "none",
+    params:
+        params=dict(config),
+        scan=lambda wildcards: SCANS[wildcards.scan],
+        mesh=lambda wildcards: hashes(SCANS[wildcards.scan]),
+        hand=hand_parameter(config["hand"]),
+        code=script_hash("plan_scan"),
+    message:
+        "Planning with and without parts: {wildcards.scan}"
+    script:
+        "../scripts/plan_scan.py"
+
+
+rule tabulate_scan_plans:
+    input:
+        tables=expand(rules.plan_scan.output.table, scan=SCANS),
+    output:
+        table="reports/segmentation/plans.csv",
+        summary="reports/segmentation/plan_gains.csv",
+    params:
+        code=script_hash("tabulate_scan_plans"),
+    message:
+        "Tabulating plans with and without parts"
+    script:
+        "../scripts/tabulate_scan_plans.py"

@@ -78,6 +78,6 @@ def run(args: argparse.Namespace) -> str:
         from grasptypes.files import write_text
         from grasptypes.inspection.pages import inspection_page
 
-        write_text(args.page, inspection_page(found, params))
+        write_text(args.page, inspection_page(found))
         written += f"written: {printable(str(args.page))}\n"
     return json_text(found.summary()) if args.json else report(found) + written

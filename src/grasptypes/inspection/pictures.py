@@ -3,11 +3,13 @@ each task."""
 
 from __future__ import annotations
 
+import io
 from collections.abc import Mapping
 
 import numpy as np
 from matplotlib import colormaps
-from matplotlib.colors import to_hex
+from matplotlib.figure import Figure
+from matplotlib.patches import Patch
 from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
@@ -15,45 +17,62 @@ from grasptypes.contact_maps.placement import SurfacePoints
 from grasptypes.inspection.inspection import Inspection
 from grasptypes.objects.object_files import Surface
 from grasptypes.renders.contact_pictures import contact_picture, look_at, plain
-from grasptypes.renders.renderer import Camera, png_bytes
+from grasptypes.renders.renderer import Camera
 from grasptypes.renders.scene import Part
-from grasptypes.reports.sheets import Group, Tile, sheet
 from grasptypes.segmentation.parts import Parts
 from grasptypes.settings.params import Params
-from grasptypes.settings.roles import read_roles
 
 Array = NDArray[np.float64]
 
+# Ways of holding that are listed below a contact map.
+SHOWN = 4
 # Parts without a role.
-GREY = (0.6, 0.6, 0.6)
+GREY = (0.6, 0.6, 0.6, 1.0)
 # Weight of a difference between normals against metres: points on the other side of a wall are far
 # away.
 NORMAL_M = 0.01
 
 
 def inspection_png(inspection: Inspection, params: Params) -> bytes:
-    """PNG of the object in the colours of its roles, and of the contact map of each task, from two
-    sides."""
+    """PNG of the object in the colours of its roles, and of the contact map of each task.
+
+    Everything is seen from two sides.
+    """
+    figure = draw_inspection(inspection, params)
+    with io.BytesIO() as file:
+        figure.savefig(file, format="png", dpi=150)
+        return file.getvalue()
+
+
+def draw_inspection(inspection: Inspection, params: Params) -> Figure:
+    """The same as a figure: a column for the parts, and one for each task."""
     settings, surface = params.contact_pictures, inspection.geometry.surface
-    studio = plain(params.renders, settings.size_px)
-    with Camera(studio) as camera:
-        views = [
-            both_sides(
-                coloured_parts(inspection), camera, settings.azimuth_rad, settings.elevation_rad
-            )
-        ]
-        captions = [", ".join(dict.fromkeys(role_of(inspection.parts).values()))]
-        for each in inspection.tasks:
-            if each.contact_map:
-                contact_map = each.contact_map
-                views.append(
-                    contact_picture(contact_map, contact_map.probability, surface, camera, settings)
-                )
-                grip, part, share = each.shares()[0]
-                captions.append(f"{each.task}: {share:.0%} {grip} {part}")
-    tiles = [Tile(view, caption) for view, caption in zip(views, captions, strict=True)]
-    picture = sheet([Group(inspection.geometry.name, tiles)], len(tiles), settings.size_px)
-    return png_bytes(picture, studio.png_compression)
+    mapped = [each for each in inspection.tasks if each.contact_map]
+    colours = role_colours(inspection.parts)
+    with Camera(plain(params.renders, settings.size_px)) as camera:
+        parts = coloured_parts(inspection, colours)
+        views = [both_sides(parts, camera, settings.azimuth_rad, settings.elevation_rad)]
+        for each in mapped:
+            contact_map = each.contact_map
+            assert contact_map is not None  # those of `mapped` have one
+            probability = contact_map.probability
+            views.append(contact_picture(contact_map, probability, surface, camera, settings))
+    figure = Figure(figsize=(4.2 * len(views), 3.0), layout="constrained")
+    panels = figure.subplots(1, len(views), squeeze=False)[0]
+    titles = [f"{inspection.geometry.name}: roles from {inspection.parts.basis}"]
+    titles += [each.task for each in mapped]
+    for panel, view, title in zip(panels, views, titles, strict=True):
+        panel.imshow(view)
+        panel.set_axis_off()
+        panel.set_title(title, fontsize="small", parse_math=False)
+    keys = [Patch(color=colour, label=role) for role, colour in colours.items()]
+    panels[0].legend(handles=keys, loc="upper center", bbox_to_anchor=(0.5, 0.02), ncols=4,
+                     fontsize="x-small", frameon=False)  # fmt: skip
+    for panel, each in zip(panels[1:], mapped, strict=True):
+        held = [f"{share:.0%} {grip} {part}" for grip, part, share in each.shares()[:SHOWN]]
+        panel.text(0.5, 0.0, "\n".join(held), transform=panel.transAxes, ha="center", va="top",
+                   fontsize="x-small", parse_math=False)  # fmt: skip
+    return figure
 
 
 def both_sides(
@@ -75,12 +94,12 @@ def role_of(parts: Parts) -> Mapping[str, str]:
     return {name: part.role if part else "" for name, part in parts.roles.items()}
 
 
-def role_colours() -> dict[str, tuple[float, float, float]]:
-    """An sRGB colour for each role; neighbours in roles.yaml, such as parts made for the hand,
-    look alike."""
-    roles = list(read_roles().roles)
-    shades = colormaps["gist_rainbow"](np.linspace(0, 1, len(roles)))[:, :3]
-    return {role: tuple(shade) for role, shade in zip(roles, shades.tolist(), strict=True)}
+def role_colours(parts: Parts) -> dict[str, tuple[float, float, float, float]]:
+    """An sRGB colour for each role that the parts have, in their order."""
+    roles = [role for role in dict.fromkeys(role_of(parts).values()) if role]
+    # The ten strong colours, then the ten light ones.
+    shades = [colormaps["tab20"](2 * at % 20 + at // 10) for at in range(len(roles))]
+    return {role: shade for role, shade in zip(roles, shades, strict=True)}
 
 
 def face_parts(
@@ -97,13 +116,12 @@ def face_parts(
     )
 
 
-def coloured_parts(inspection: Inspection) -> list[Part]:
+def coloured_parts(
+    inspection: Inspection, colours: Mapping[str, tuple[float, float, float, float]]
+) -> list[Part]:
     """The object's surface cut by parts, each in the colour of its role."""
     surface, parts = inspection.geometry.surface, inspection.parts
-    of_face, colours = (
-        face_parts(surface, inspection.drawn.points, parts.part_index),
-        role_colours(),
-    )
+    of_face = face_parts(surface, inspection.drawn.points, parts.part_index)
     found = []
     for number, role in enumerate(role_of(parts).values()):
         corners = surface.vertices[surface.faces[of_face == number]]
@@ -111,7 +129,7 @@ def coloured_parts(inspection: Inspection) -> list[Part]:
             normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
             normals /= np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-30)
             triangles = np.arange(3 * len(corners)).reshape(-1, 3)
-            colour = np.array(colours.get(role, GREY)) ** 2.2
+            colour = np.array(colours.get(role, GREY)[:3]) ** 2.2
             found.append(
                 Part(
                     corners.reshape(-1, 3),
@@ -123,12 +141,3 @@ def coloured_parts(inspection: Inspection) -> list[Part]:
                 )
             )
     return found
-
-
-def legend(parts: Parts) -> dict[str, str]:
-    """Hex colour of each role that the parts have."""
-    return {
-        role: to_hex(colour)
-        for role, colour in role_colours().items()
-        if role in role_of(parts).values()
-    }

@@ -24,6 +24,7 @@ def load_object(
     unit: str = "m",
     *,
     mass_kg: float | None = None,
+    scale: float = 1.0,
     name: str | None = None,
     settings: ObjectSettings | None = None,
 ) -> ObjectGeometry:
@@ -35,6 +36,7 @@ def load_object(
         path: an STL, OBJ, PLY or GLB file.
         unit: its length unit: m, cm, mm or inch.
         mass_kg: mass of the object; default: that of a solid of water.
+        scale: size to prepare it at, relative to the file.
         name: name of the object; default: that of the file.
         settings: limits and resolution; default: from params.yaml in the current folder, else
             those that come with the package.
@@ -42,7 +44,7 @@ def load_object(
     Raises:
         InputError: the mesh cannot be used; the message says why.
     """
-    own = own_object(path, unit, mass_kg)
+    own = own_object(path, unit, mass_kg).changed(scale=scale)
     objects = settings or checkout_params().objects
     imported = import_model(own, objects.import_)
     folder = Path(tempfile.mkdtemp(prefix="grasptypes-"))

@@ -105,7 +105,8 @@ def _balls(distance: Array, height: Array, spacing_m: float, length_m: float) ->
         )
         radii.append(np.clip(radius, SMALLEST_M, length_m))
     inside, outside = radii
-    return np.log(np.stack([inside, outside, inside / length_m, outside / length_m], axis=1))
+    both = np.stack([inside, outside, inside / length_m, outside / length_m], axis=1)
+    return np.asarray(np.log(both))
 
 
 def _spin_image(beside: Array, height: Array, reach_m: float, bins: int) -> Array:
@@ -120,7 +121,7 @@ def _spin_image(beside: Array, height: Array, reach_m: float, bins: int) -> Arra
     cells = 2 * bins * bins
     at = (np.arange(len(beside))[:, None] * cells + row * bins + column)[inside]
     counts = np.bincount(at, minlength=len(beside) * cells).reshape(len(beside), cells)
-    return np.sqrt(counts / beside.shape[1])
+    return np.asarray(np.sqrt(counts / beside.shape[1]))
 
 
 def _spread(cloud: Cloud, points: Array, normals: Array, distance: Array, radius_m: float) -> Array:

@@ -103,7 +103,8 @@ def role_index(parts: Parts) -> NDArray[np.intp]:
     """Role (N,) of each point as its place in roles.yaml; -1 without a role."""
     order = list(read_roles().roles)
     places = [order.index(part.role) if part else -1 for part in parts.roles.values()]
-    return np.array(places)[parts.part_index]
+    of_point: NDArray[np.intp] = np.array(places)[parts.part_index]
+    return of_point
 
 
 def hold_groups() -> NDArray[np.intp]:

@@ -53,7 +53,7 @@ class RoleNetwork:
         return chances
 
     def _layer(self, number: int, inputs: NDArray[np.float32]) -> NDArray[np.float32]:
-        return np.maximum(inputs @ self.weights[number] + self.biases[number], 0)
+        return np.asarray(np.maximum(inputs @ self.weights[number] + self.biases[number], 0))
 
     def write(self, path: str | Path) -> None:
         """Write the network; half precision changes no probability by more than 0.01."""

@@ -113,7 +113,7 @@ def _descend(
             )
             loss = (losses.reshape(batch, -1).mean(dim=1) * weights[rows]).mean()
             optimiser.zero_grad()
-            loss.backward()  # type: ignore[no-untyped-call]
+            loss.backward()
             optimiser.step()
             pace.step()
             total += float(loss.detach())

@@ -70,10 +70,10 @@ class ShownGrasp:
 
 @dataclass(frozen=True)
 class GraspViews:
-    """All that a page shows."""
+    """All that a page shows; without a hand there are no grasps."""
 
     title: str
-    hand: Hand
+    hand: Hand | None
     objects: dict[str, ShownObject]
     grasps: list[ShownGrasp] = field(default_factory=list)
 

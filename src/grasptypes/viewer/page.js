@@ -195,14 +195,29 @@ function tell() {
 
 // Look at object and hand from a side on which the hand hides little.
 function aim() {
-  const box = new THREE.Box3().setFromObject(objectGroup).union(new THREE.Box3().setFromObject(handGroup));
+  const box = new THREE.Box3().setFromObject(objectGroup);
+  if (shown.pose) box.union(new THREE.Box3().setFromObject(handGroup));
   const centre = box.getCenter(new THREE.Vector3());
   const reach = 0.5 * box.getSize(new THREE.Vector3()).length() / Math.tan((camera.fov * Math.PI) / 360);
-  const side = new THREE.Vector3(shown.pose[0][0], shown.pose[1][0], shown.pose[2][0]).multiplyScalar(0.8);
+  const side = shown.pose ? new THREE.Vector3(shown.pose[0][0], shown.pose[1][0], shown.pose[2][0]).multiplyScalar(0.8) : new THREE.Vector3();
   side.add(new THREE.Vector3(0.35, -0.6, 0.6)).normalize();
   camera.position.copy(centre).addScaledVector(side, reach * Math.max(1, 1 / camera.aspect));
   controls.target.copy(centre);
   controls.update();
+}
+
+// An object that nobody has grasped yet: its parts, and where people touch it for a task.
+async function showObject(object, task) {
+  const turned = !shown || shown.object !== object;
+  shown = { object, task };
+  const found = await loadObject(object);
+  objectGroup.clear();
+  objectGroup.add(found.group);
+  handGroup.visible = contactGroup.visible = false;
+  paint(found);
+  scene.updateMatrixWorld(true);
+  if (turned) aim();
+  document.body.dataset.shown = `${object} ${task}`;
 }
 
 async function show(grasp) {
@@ -239,6 +254,13 @@ const outcome = (grasp) => grasp.facts.reason ?? "unknown";
 function choose(kept) {
   fill("object", Object.keys(content.objects), chosen("object"));
   const ofObject = content.grasps.filter((grasp) => grasp.object === chosen("object"));
+  const { surface, maps } = content.objects[chosen("object")];
+  document.body.classList.toggle("bare", !ofObject.length);
+  fill("colours", ["materials", "parts", ...(surface ? ["contact map"] : [])], chosen("colours") || (ofObject.length ? "materials" : "parts"));
+  if (!ofObject.length) {
+    fill("task", Object.keys(maps), chosen("task"));
+    return showObject(chosen("object"), chosen("task"));
+  }
   fill("task", [ANY, ...known(ofObject, (grasp) => grasp.task)], chosen("task"));
   const ofTask = ofObject.filter((grasp) => [ANY, grasp.task].includes(chosen("task")));
   fill("type", [ANY, ...known(ofTask, (grasp) => grasp.type).sort()], chosen("type"));
@@ -247,8 +269,6 @@ function choose(kept) {
   grasps = ofType.filter((grasp) => [ANY, outcome(grasp)].includes(chosen("reason")));
   grasps.sort((a, b) => a.task.localeCompare(b.task) || a.rank - b.rank);
   field("grasp").replaceChildren(...grasps.map((grasp, i) => new Option(`${grasp.task}, rank ${grasp.rank}: ${grasp.type}`, i)));
-  const { surface } = content.objects[chosen("object")];
-  fill("colours", ["materials", "parts", ...(surface ? ["contact map"] : [])], chosen("colours"));
   return show(grasps.includes(kept) ? kept : grasps[0]);
 }
 
@@ -298,7 +318,7 @@ async function start() {
     playing = null;
     pose(Number(field("moment").value));
   });
-  frames = await loadHand();
+  if (content.hand) frames = await loadHand();
   await choose(null);
   requestAnimationFrame(draw);
 }

@@ -54,9 +54,9 @@ def page(views: GraspViews) -> str:
     hand_blob = Blob()
     content = {
         "title": views.title,
-        "hand": _hand(views.hand, hand_blob),
+        "hand": views.hand and _hand(views.hand, hand_blob),
         "objects": objects,
-        "grasps": [_grasp(grasp, views.hand) for grasp in views.grasps],
+        "grasps": [_grasp(grasp, views.hand) for grasp in views.grasps if views.hand],
     }
     blobs["hand"] = hand_blob.text()
     stores = "\n".join(

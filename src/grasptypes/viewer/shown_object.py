@@ -87,17 +87,22 @@ def load_shown_object(
         parts.append(ShownPart(part, roles.get(part, ""), *look, mesh))
     if surface is None:
         return ShownObject(name, parts, None, {})
-    normals = trimesh.Trimesh(surface.vertices, surface.faces, process=False).vertex_normals
-    values = {task: _on_vertices(surface.vertices, normals, each) for task, each in maps.items()}
+    values = {task: vertex_values(surface, *each) for task, each in maps.items()}
     return ShownObject(name, parts, surface, values)
 
 
-def _on_vertices(
-    vertices: Array, normals: Array, map_arrays: Sequence[NDArray[np.float32]]
+def vertex_values(
+    surface: Surface,
+    points: NDArray[np.float32],
+    point_normals: NDArray[np.float32],
+    probability: NDArray[np.float32],
 ) -> Array:
-    """Values (V,) at vertices of a map's points; those on the other side of a wall do not count."""
-    points, point_normals, probability = map_arrays
-    distance, near = cKDTree(points).query(vertices, min(NEIGHBOURS, len(points)))
+    """Values (V,) of a map's points (N, 3) at the vertices of a surface.
+
+    Points on the other side of a wall do not count.
+    """
+    normals = trimesh.Trimesh(surface.vertices, surface.faces, process=False).vertex_normals
+    distance, near = cKDTree(points).query(surface.vertices, min(NEIGHBOURS, len(points)))
     facing = np.einsum("vkj,vj->vk", point_normals[near], normals)
     weight = np.clip(facing, 1e-6, None) / (distance**2 + 1e-9)
     return np.asarray((weight * probability[near]).sum(1) / weight.sum(1))

@@ -1,0 +1,220 @@
+"""Study: do parts that were found in an object's shape help to plan grasps as people would grasp
+it?
+
+A scan whose true roles are known is planned twice, with all grips and equally many sessions: where
+people
+hold the parts that its shape shows, and anywhere. A rule over the true roles then judges the valid
+grasps.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import pandas as pd
+import pandera.pandas as pa
+from numpy.typing import NDArray
+from scipy.spatial import cKDTree
+
+from grasptypes.contact_maps.contact_map import MapTask
+from grasptypes.contact_maps.part_holds import part_holds
+from grasptypes.hands import configuration
+from grasptypes.hands.hand import Hand
+from grasptypes.hands.reading import load_hand
+from grasptypes.hands.surface import surface_points
+from grasptypes.labels.grasp_type import GRASP_TYPES
+from grasptypes.objects.distance_grid import DistanceGrid
+from grasptypes.planning.plan_comparison import tests
+from grasptypes.planning.plan_contacts import PlanContacts, grips_of, hold_parts, plan_contacts
+from grasptypes.planning.sessions import PlanningContext, plan_sessions
+from grasptypes.segmentation.known_parts import known_parts
+from grasptypes.settings.holds import TouchSettings
+from grasptypes.settings.roles import PartRole
+from grasptypes.settings.tasks import Task, read_tasks
+
+Array = NDArray[np.float64]
+
+FOUND, ANYWHERE = "found", "none"
+COUNT = pa.Check.ge(0)
+PART_PLAN_SCHEMA = pa.DataFrameSchema(
+    {
+        "object": pa.Column(str),
+        "task": pa.Column(str),
+        "parts": pa.Column(str, pa.Check.isin((FOUND, ANYWHERE))),
+        "sessions": pa.Column(int, pa.Check.ge(1)),
+        "tests": pa.Column(int, COUNT, description="hands that physics saw"),
+        "valid": pa.Column(int, COUNT, description="sessions with a valid grasp"),
+        "held": pa.Column(
+            int, COUNT, description="valid, and most of the contact is on parts that people touch"
+        ),
+        "clear": pa.Column(
+            int, COUNT, description="valid, without contact on what is hazardous or must stay free"
+        ),
+        "handle_free": pa.Column(
+            int, COUNT, description="valid, with at most a third of the contact on a handle"
+        ),
+        "accepted": pa.Column(int, COUNT, description="held and clear"),
+    },
+    strict=True,
+    ordered=True,
+    unique=["object", "task", "parts"],
+)
+SHARE = pa.Check.in_range(0, 1)
+GAIN_SCHEMA = pa.DataFrameSchema(
+    {
+        "task": pa.Column(str),
+        "parts": pa.Column(str, pa.Check.isin((FOUND, ANYWHERE))),
+        "held": pa.Column(float, SHARE, description="share of the valid grasps"),
+        "clear": pa.Column(float, SHARE),
+        "handle_free": pa.Column(float, SHARE),
+        "accepted": pa.Column(float, SHARE),
+        "valid": pa.Column(float, SHARE, description="share of the sessions"),
+        "tests_per_accepted": pa.Column(float, nullable=True),
+        "gain": pa.Column(float, description="of the accepted share, mean over objects"),
+        "error": pa.Column(float, description="standard error of the gain over objects"),
+    },
+    strict=True,
+    ordered=True,
+)
+# Roles that are made for the hand, so that a receiver wants them.
+HANDLES = ("handle", "bail", "strap")
+# Contact of less than this share of the touching hand does not count: points beside an edge.
+TRACE = 0.05
+COVERED = 1 / 3
+
+
+@dataclass(frozen=True)
+class TrueRoles:
+    """Points (N, 3) on an object (its frame, metres), and the role of each, (N,)."""
+
+    points_m: Array
+    roles: Sequence[PartRole]
+
+    def contact_shares(self, touching_m: Array) -> list[tuple[PartRole, float]]:
+        """The roles that points of a hand (n, 3) touch, with their shares of these points."""
+        nearest = cKDTree(self.points_m).query(touching_m)[1]
+        found: dict[str, tuple[PartRole, int]] = {}
+        for index in nearest:
+            part = self.roles[int(index)]
+            known = found.get(part.role, (part, 0))
+            found[part.role] = known[0], known[1] + 1
+        return [(part, count / len(touching_m)) for part, count in found.values()]
+
+
+def study_plans(
+    context: PlanningContext, true: TrueRoles, touch: TouchSettings
+) -> list[dict[str, Any]]:
+    """The rows of a scan and a task, with and without parts; see `PART_PLAN_SCHEMA`."""
+    params, grips = context.params, grips_of(GRASP_TYPES[:-1])
+    settings = params.contact_maps.changed(sessions=params.plan.comparison.sessions)
+    drawn = MapTask.of_object(context.geometry, (context.word, context.task), params.seed, settings)
+    task = read_tasks()[context.task]
+    parts = known_parts(context.geometry, drawn.points, params.segmentation)
+    anywhere = plan_contacts(drawn, None, grips, context.geometry.source)
+    found = hold_parts(*part_holds(drawn, context.geometry, parts, task), grips) or anywhere
+    return [
+        {
+            "object": context.geometry.name,
+            "task": context.task,
+            "parts": name,
+            **_judged(context, contacts, true, touch, task),
+        }
+        for name, contacts in ((FOUND, found), (ANYWHERE, anywhere))
+    ]
+
+
+def _judged(
+    context: PlanningContext,
+    contacts: PlanContacts,
+    true: TrueRoles,
+    touch: TouchSettings,
+    task: Task,
+) -> dict[str, int]:
+    """Plan with given contacts, and count the grasps that the rule accepts."""
+    attempts, grasps = plan_sessions(context, contacts, GRASP_TYPES[:-1])
+    hand, grid = load_hand(context.hand), context.geometry.distance_grid
+    verdicts = [
+        accepts(true.contact_shares(_touching(hand, grid, numbers, touch)), task)
+        for numbers in grasps[grasps.valid].hand_configuration
+    ]
+    held, clear, free = np.array(verdicts, dtype=bool).reshape(-1, 3).T
+    return {
+        "sessions": context.params.plan.comparison.sessions,
+        "tests": tests(attempts),
+        "valid": int(grasps.valid.sum()),
+        "held": int(held.sum()),
+        "clear": int(clear.sum()),
+        "handle_free": int(free.sum()),
+        "accepted": int((held & clear).sum()),
+    }
+
+
+def accepts(shares: Sequence[tuple[PartRole, float]], task: Task) -> tuple[bool, bool, bool]:
+    """Whether a grasp with these shares of contact is where people hold an object for a task.
+
+    Returns:
+        whether most of the contact is on roles that people touch; whether nothing is on roles that
+        must
+        stay free, nor, if the task minds, on hazardous parts; whether handles are left free.
+    """
+    held = sum(share for part, share in shares if task.touched.get(part.role, 0.0) > 0)
+    wrong = sum(
+        share
+        for part, share in shares
+        if part.role in task.free or (part.hazardous and part.role not in task.touched)
+    )
+    on_handle = sum(share for part, share in shares if part.role in HANDLES)
+    return held > 1 / 2, wrong <= TRACE, on_handle <= COVERED
+
+
+def _touching(
+    hand: Hand, grid: DistanceGrid, numbers: NDArray[np.float64], touch: TouchSettings
+) -> Array:
+    """Points (n, 3) of the hand's surface that touch the object, in its frame; at least the
+    nearest one."""
+    posed = configuration.unpack(np.asarray(numbers))
+    poses = posed.T_object_hand @ hand.link_poses(hand.couple(posed.dofs))
+    surface = surface_points(hand, touch.hand_spacing_m)
+    T = poses[surface.link_index]
+    points = np.einsum("pij,pj->pi", T[:, :3, :3], surface.points_m) + T[:, :3, 3]
+    distance_m = grid.distance(points)
+    return np.asarray(points[distance_m <= max(touch.touch_m, float(distance_m.min()))])
+
+
+def summary(table: pd.DataFrame) -> pd.DataFrame:
+    """One row per task and `parts`: shares, tests per accepted grasp, and the gain over the other
+    way.
+
+    The gain is that of the share of valid grasps that are accepted, with its standard error over
+    objects.
+    """
+    rows = []
+    for task, of_task in table.groupby("task", sort=False):
+        share = of_task.assign(share=of_task.accepted / of_task.valid.clip(lower=1)).pivot(
+            index="object", columns="parts", values="share"
+        )
+        gain = share[FOUND] - share[ANYWHERE]
+        for parts, some in of_task.groupby("parts", sort=False):
+            total = some[
+                ["sessions", "tests", "valid", "held", "clear", "handle_free", "accepted"]
+            ].sum()
+            rows.append(
+                {
+                    "task": task,
+                    "parts": parts,
+                    **{
+                        name: total[name] / max(total.valid, 1)
+                        for name in ("held", "clear", "handle_free", "accepted")
+                    },
+                    "valid": total.valid / total.sessions,
+                    "tests_per_accepted": total.tests / total.accepted
+                    if total.accepted
+                    else np.nan,
+                    "gain": gain.mean() if parts == FOUND else 0.0,
+                    "error": gain.std() / np.sqrt(len(gain)) if parts == FOUND else 0.0,
+                }
+            )
+    return pd.DataFrame(rows).round(3)
