@@ -57,9 +57,9 @@ def run(args: argparse.Namespace) -> str:
 
     from grasptypes.inspection.inspection import inspect_object, report
     from grasptypes.objects.loading import load_object
-    from grasptypes.segmentation.role_files import read_part_roles
+    from grasptypes.segmentation.role_files import read_role_table
 
-    roles = read_part_roles(args.roles) if args.roles else None
+    roles = read_role_table(args.roles) if args.roles else None
     name = printable(args.object.stem)
     geometry = load_object(
         args.object, args.unit, mass_kg=args.mass_kg, name=name, settings=params.objects

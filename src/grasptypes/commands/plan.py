@@ -35,6 +35,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("--contact-map", type=Path, help="PLY whose red channel says where to hold")
     parser.add_argument(
+        "--roles", type=Path, help="CSV with the role of each part (default: found in the shape)"
+    )
+    parser.add_argument(
         "--type",
         action="append",
         default=[],
@@ -65,6 +68,7 @@ def run(args: argparse.Namespace) -> str:
     from grasptypes.planning.plan_contacts import MeasuredMap
     from grasptypes.planning.plan_summary import report, summarise
     from grasptypes.planning.planner import Planner
+    from grasptypes.segmentation.role_files import read_role_table
 
     planner = Planner(args.folder, hand=args.hand, jobs=args.jobs, tell=_tell)
     # Check everything before anything is computed.
@@ -72,6 +76,7 @@ def run(args: argparse.Namespace) -> str:
     scan = MeasuredMap(args.contact_map, UNITS_M[args.unit]) if args.contact_map else None
     if scan:
         scan.read()
+    roles = read_role_table(args.roles) if args.roles else None
     geometry = load_object(
         args.object,
         args.unit,
@@ -79,7 +84,9 @@ def run(args: argparse.Namespace) -> str:
         name=printable(args.object.stem),
         settings=planner.params.objects,
     )
-    plan = planner.plan(geometry, task, args.type, contact_map=scan, sessions=args.sessions)
+    plan = planner.plan(
+        geometry, task, args.type, contact_map=scan, roles=roles, sessions=args.sessions
+    )
     plan.write(output)
     summary = summarise(plan)
     if args.json:

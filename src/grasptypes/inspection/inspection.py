@@ -3,7 +3,7 @@ how."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -16,8 +16,8 @@ from grasptypes.objects.object_geometry import ObjectGeometry
 from grasptypes.renders.mesh_views import MESH_WORD
 from grasptypes.segmentation.known_parts import known_parts
 from grasptypes.segmentation.parts import Parts
+from grasptypes.segmentation.role_files import RoleTable
 from grasptypes.settings.params import Params
-from grasptypes.settings.roles import PartRole
 from grasptypes.settings.tasks import read_tasks
 
 CENTIMETRES = 100.0
@@ -88,14 +88,14 @@ def inspect_object(
     tasks: Sequence[str],
     params: Params,
     *,
-    roles: Mapping[str, PartRole] | None = None,
+    roles: RoleTable | None = None,
     mass_given: bool = False,
 ) -> Inspection:
     """Find an object's parts, and where people hold them.
 
     Args:
-        roles: role of each part by name; default: those in the object's file, or those that its
-            shape tells.
+        roles: roles of parts by name or colour; default: those in the object's file, or those that
+            its shape tells.
         mass_given: whether the object's mass is known.
 
     Raises:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from importlib import import_module
 from pathlib import Path
@@ -30,8 +30,8 @@ from grasptypes.planning.sessions import PlanningContext, plan_sessions
 from grasptypes.renders.mesh_views import MESH_WORD
 from grasptypes.segmentation.known_parts import known_parts
 from grasptypes.segmentation.parts import Parts, described
+from grasptypes.segmentation.role_files import RoleTable
 from grasptypes.settings.params import Params, checkout_params
-from grasptypes.settings.roles import PartRole
 from grasptypes.settings.tasks import read_tasks
 
 if TYPE_CHECKING:
@@ -125,7 +125,7 @@ class Planner:
         types: Sequence[str] = (),
         *,
         contact_map: MeasuredMap | None = None,
-        roles: Mapping[str, PartRole] | None = None,
+        roles: RoleTable | None = None,
         sessions: int | None = None,
     ) -> Plan:
         """Plan ranked grasps of an object for a task.
@@ -135,8 +135,8 @@ class Planner:
             types: requested grasp types, which rank before all others; default: chosen by the
                 predictor.
             contact_map: where to touch the object; default: where people hold its parts.
-            roles: role of each part by name; default: those in the object's file, or those that
-                its shape tells.
+            roles: roles of parts by name or colour; default: those in the object's file, or those
+                that its shape tells.
             sessions: number of ways of holding to search, one grasp each.
 
         Raises:

@@ -164,7 +164,8 @@ def transferred_roles(
     turned = trimesh.Trimesh(surface.vertices, surface.faces, process=False).vertex_normals
     tree = cKDTree(np.hstack([surface.vertices, NORMAL_M * turned]))
     nearest = tree.query(np.hstack([points_m, NORMAL_M * normals]))[1]
-    return np.asarray(roles)[surface.part_index[nearest]]
+    of_point: NDArray[np.intp] = np.asarray(roles)[surface.part_index[nearest]]
+    return of_point
 
 
 def scan_row(name: str, parts: Parts, true: NDArray[np.intp]) -> dict[str, object]:

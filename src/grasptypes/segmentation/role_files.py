@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import re
 from pathlib import Path
+from typing import NamedTuple
 
 from grasptypes.errors import InputError, parsing
 from grasptypes.settings.roles import PartRole
@@ -14,7 +15,24 @@ ATTRIBUTES = "attributes"
 COLOUR = re.compile(r"#[0-9a-f]{6}")
 
 
-def read_part_roles(path: str | Path) -> dict[str, PartRole]:
+class RoleTable(NamedTuple):
+    """What a user says about parts.
+
+    Attributes:
+        path: the table, for errors.
+        roles: role of each part by name, or by colour such as #c81e1e.
+    """
+
+    path: Path
+    roles: dict[str, PartRole]
+
+    @property
+    def by_colour(self) -> bool:
+        """Whether colours stand for parts."""
+        return next(iter(self.roles)).startswith("#")
+
+
+def read_role_table(path: str | Path) -> RoleTable:
     """The role of each part by name, or by colour such as #c81e1e, from a CSV with the columns
     part, role and attributes.
 
@@ -42,7 +60,7 @@ def read_part_roles(path: str | Path) -> dict[str, PartRole]:
         raise InputError(path, "", "names no part")
     if len({part.startswith("#") for part in roles}) > 1:
         raise InputError(path, "part", "mixes names and colours of parts: use one of them")
-    return roles
+    return RoleTable(path, roles)
 
 
 def _rows(path: Path) -> list[tuple[str, dict[str, str | None]]]:
