@@ -8,7 +8,8 @@ rule sample_kinds:
     wildcard_constraints:
         group="[a-z]+",
     params:
-        settings=settings("segmentation"),
+        descriptors=config["segmentation"]["descriptors"],
+        settings=config["segmentation"]["samples"],
         names=lambda wildcards: kinds_of(wildcards.group),
         blocks=lambda wildcards: kind_hash(*kinds_of(wildcards.group)),
         code=script_hash("sample_kinds"),

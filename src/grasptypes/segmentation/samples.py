@@ -20,7 +20,7 @@ from grasptypes.objects.preparation import face_parts, joined, scaled_parts
 from grasptypes.seeds import rng, seed
 from grasptypes.segmentation.descriptors import Cloud, describe_points
 from grasptypes.settings.roles import read_roles
-from grasptypes.settings.segmentation import RoleTrainingSettings, SegmentationSettings
+from grasptypes.settings.segmentation import DescriptorSettings, RoleSampleSettings
 
 Array = NDArray[np.float64]
 
@@ -59,19 +59,20 @@ def read_samples(paths: Sequence[str | Path]) -> RoleSamples:
     return RoleSamples(**{name: np.concatenate([file[name] for file in files]) for name in names})
 
 
-def sample_shapes(names: Sequence[str], settings: SegmentationSettings) -> RoleSamples:
+def sample_shapes(
+    names: Sequence[str], described: DescriptorSettings, settings: RoleSampleSettings
+) -> RoleSamples:
     """Samples of shapes of kinds by name, such as mallet_s01."""
-    described = settings.training.points
     rows = []
     for name in names:
         points_m, normals, roles = altered(
-            sample_roles(build_shape(name), name, settings.descriptors.points),
-            settings.training,
+            sample_roles(build_shape(name), name, described.points),
+            settings,
             rng("altered shape", name),
         )
         cloud = Cloud.of_points(points_m, normals, len(points_m))
         descriptors = describe_points(
-            cloud, points_m[:described], normals[:described], settings.descriptors
+            cloud, points_m[: settings.points], normals[: settings.points], described
         )
         rows.append((points_m, normals, roles, descriptors))
     points, normals_, roles_, descriptors_ = (
@@ -89,7 +90,7 @@ def sample_shapes(names: Sequence[str], settings: SegmentationSettings) -> RoleS
 
 def altered(
     sample: tuple[Array, Array, NDArray[np.int64]],
-    settings: RoleTrainingSettings,
+    settings: RoleSampleSettings,
     draw: np.random.Generator,
 ) -> tuple[Array, Array, NDArray[np.int64]]:
     """A sample of another shape of the kind, as a scanner may see it: stretched, rough, with a

@@ -22,8 +22,8 @@ class DescriptorSettings(Settings):
     stations: int = setting("stations along the object's length", ge=4, le=64)
 
 
-class RoleTrainingSettings(Settings):
-    """Training of the network that names roles."""
+class RoleSampleSettings(Settings):
+    """Points on shapes of kinds, from which the network learns."""
 
     shapes: int = setting("shapes of each kind", ge=1, le=99)
     points: int = setting("points of each shape", ge=64, le=8192)
@@ -31,6 +31,11 @@ class RoleTrainingSettings(Settings):
     roughness_m: float = setting("standard deviation of points about the surface", ge=0, le=0.01)
     normal_noise: float = setting("standard deviation of normals, per component", ge=0, le=1)
     hole_share: float = setting("largest hole, as a share of the surface", ge=0, le=0.9)
+
+
+class RoleTrainingSettings(Settings):
+    """Training of the network that names roles."""
+
     width: int = setting("units of each layer", ge=8, le=1024)
     epochs: int = setting("passes over all shapes", ge=1)
     batch: int = setting("shapes in a step", ge=1)
@@ -50,4 +55,5 @@ class SegmentationSettings(Settings):
     smoothing_steps: int = setting("how often neighbours are listened to", ge=0, le=1000)
     own_share: float = setting("weight of a point itself against its neighbours", gt=0, le=1)
     smallest_share: float = setting("smallest part, as a share of the surface", ge=0, le=0.5)
+    samples: RoleSampleSettings
     training: RoleTrainingSettings
