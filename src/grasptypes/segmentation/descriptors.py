@@ -128,7 +128,7 @@ def _spread(cloud: Cloud, points: Array, normals: Array, distance: Array, radius
     """How the surface within a radius of a point spreads (n, 5): extents, agreement of normals,
     area."""
     near = (distance < radius_m).astype(float)
-    count = near.sum(axis=1)
+    count = np.maximum(near.sum(axis=1), 1)
     mean = near @ cloud.points_m / count[:, None]
     outer = np.einsum("mi,mj->mij", cloud.points_m, cloud.points_m).reshape(-1, 9)
     covariance = (near @ outer / count[:, None]).reshape(-1, 3, 3) - np.einsum(

@@ -51,10 +51,11 @@ def test_neighbours_agree_on_connected_parts():
 
 def test_parts_apart_have_names_of_their_own():
     points_m, normals = rod()
-    twice = np.concatenate([points_m, points_m + [0.3, 0, 0]])
+    order = np.random.default_rng(2).permutation(2 * len(points_m))
+    twice = np.concatenate([points_m, points_m + [0.3, 0, 0]])[order]
     parts = find_parts(
         twice,
-        np.concatenate([normals, normals]),
+        np.concatenate([normals, normals])[order],
         SETTINGS.changed(smoothing_steps=20),
         ByHeight(twice),
     )
