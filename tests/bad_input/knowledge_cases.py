@@ -85,7 +85,6 @@ CASES = [
         *("groups.slender.roles", "'handle' is also in handle"),
     ),
     own("an unknown role", {"parts": {"body": {"role": "hilt"}}}, "parts.body.role", "'hilt'"),
-    own("neither role nor contact map", {}, "role: handle", "contact_maps."),
     own(
         *("a role that nobody touches", {"parts": {"body": {"role": "screen"}}}),
         *("held for", "contact_maps."),

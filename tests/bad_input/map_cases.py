@@ -15,17 +15,19 @@ from grasptypes.contact_maps.contact_map_files import read_contact_map, write_co
 from grasptypes.files import write_npz
 from grasptypes.objects.object_files import Surface
 from grasptypes.settings.contact_maps import ContactMapSettings
+from grasptypes.settings.segmentation import SegmentationSettings
 
 COARSE = trimesh.creation.cylinder(0.03, 0.1, sections=24)
 ROD = trimesh.Trimesh(*trimesh.remesh.subdivide_to_size(COARSE.vertices, COARSE.faces, 0.006))
 SETTINGS = ContactMapSettings.check(PARAMS["contact_maps"] | {"sessions": 1})
+SEGMENTATION = SegmentationSettings.check(PARAMS["segmentation"])
 SURFACE = Surface(ROD.vertices, ROD.faces, np.zeros(len(ROD.vertices), np.int16), np.array(["rod"]))
 TASK = MapTask(sample_surface(SURFACE, 300, 0), ["rod"], ("rod", "use"), 0, 1.0, SETTINGS)
 
 
 def measured(what: str, content: Content, *names: str, name: str = "warm.ply") -> Case:
     """A map that `objects.own.rod.contact_maps.use` names."""
-    draw = script("map_contacts", "draw_map", TASK, [], name, "m")
+    draw = script("map_contacts", "draw_map", TASK, [], name, "m", SEGMENTATION)
     return Case("contact map", what, {name: content}, draw, (name, *names))
 
 

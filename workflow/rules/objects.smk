@@ -51,6 +51,7 @@ rule map_contacts:
         contact_map="data/contact_maps/{object}/{task}.npz",
     params:
         settings=settings("contact_maps"),
+        segmentation=config["segmentation"],
         knowledge=hashes(KNOWLEDGE),
         unit=lambda wildcards: map_unit(wildcards.object),
         measured=lambda wildcards: hashes(measured_input(wildcards)),

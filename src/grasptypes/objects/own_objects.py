@@ -32,7 +32,7 @@ def measured_map(objects: ObjectSettings, name: str, task: str) -> str | None:
 def check_every_hold(
     objects: ObjectSettings, tasks: Mapping[str, Task], path: str | Path = "params.yaml"
 ) -> None:
-    """Check that every object has a way to be held for every task.
+    """Check that every object whose roles are known has a way to be held for every task.
 
     Args:
         tasks: the tasks of the run.
@@ -51,8 +51,8 @@ def check_every_hold(
     for name, own in objects.own.items():
         for task, described in tasks.items():
             known = {part.role for part in own.parts.values()}
-            if task in own.contact_maps or _touched(described) & known:
-                continue
+            if task in own.contact_maps or not known or _touched(described) & known:
+                continue  # without any role, the shape tells the roles
             raise InputError(
                 path,
                 f"objects.own.{name}",
