@@ -14,6 +14,7 @@ import mesh_cases
 import params_cases
 import picture_cases
 import plan_cases
+import role_cases
 import table_cases
 import view_cases
 import weights_cases
@@ -32,6 +33,7 @@ MODULES = (
     hand_cases,
     kind_cases,
     plan_cases,
+    role_cases,
 )
 CASES: list[Case] = [case for module in MODULES for case in module.CASES]
 TABLE = ROOT / "docs/bad_input.md"
