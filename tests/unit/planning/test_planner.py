@@ -1,6 +1,7 @@
 """A plan for one mesh: the sessions, the order of the grasps, the files, and what is rejected."""
 
 import json
+from dataclasses import replace
 
 import numpy as np
 import pandas as pd
@@ -12,7 +13,8 @@ from tests.unit.barrett import BARRETT
 
 from grasptypes.__main__ import main
 from grasptypes.commands.plan import TYPES
-from grasptypes.contact_maps.contact_map import MapTask
+from grasptypes.contact_maps.contact_map import MapTask, draw_session
+from grasptypes.contact_maps.hold import Hold
 from grasptypes.contact_maps.measured_contacts import draw_measured_session
 from grasptypes.errors import InputError
 from grasptypes.exchange import dexgraspbench, graspit_world, multigrippergrasp
@@ -21,7 +23,13 @@ from grasptypes.labels.grasp_type import GRASP_TYPES
 from grasptypes.labels.published import read_published
 from grasptypes.objects.loading import load_object
 from grasptypes.planning import plan_contacts as plan_contacts_module
-from grasptypes.planning.plan_contacts import MeasuredMap, grips_of, missing_types, plan_contacts
+from grasptypes.planning.plan_contacts import (
+    MeasuredMap,
+    grips_of,
+    hold_parts,
+    missing_types,
+    plan_contacts,
+)
 from grasptypes.planning.planner import Planner
 from grasptypes.planning.sessions import choose, ranked
 from grasptypes.predictors.weights import WEIGHTS_VARIABLE
@@ -167,7 +175,13 @@ def unlucky(monkeypatch):
             None if number in numbers else draw_measured_session(task, probability, number, *rest)
         )
 
+    def hold(task, holds, number):
+        if number in numbers:
+            raise InputError("tube", "", "nobody can hold it")
+        return draw_session(task, holds, number)
+
     monkeypatch.setattr(plan_contacts_module, "draw_measured_session", draw)
+    monkeypatch.setattr(plan_contacts_module, "draw_session", hold)
     return numbers
 
 
@@ -182,6 +196,20 @@ def test_a_session_without_a_place_is_left_out_and_the_others_stay(checkout, mes
     unlucky.update((1, 3))
     with pytest.raises(InputError, match=r"tube\.stl: no hand can hold it anywhere.*0\.16 m long"):
         plan_contacts(*asked)
+
+
+def test_parts_are_held_with_the_wanted_grips_if_people_use_them(checkout, mesh):
+    task = map_task(checkout, mesh, sessions=6)
+    around, across = (
+        Hold(("body",), (), grip, None, np.array([0.0, 0.0, 1.0]), 0.3, 0.7, share)
+        for grip, share in (("wrap", 0.7), ("pinch", 0.3))
+    )
+    task = replace(task, part_names=["body"])
+    both = hold_parts(task, [around, across], ("wrap", "pinch", "enclose"))
+    assert set(both.contact_map.grip) == {"wrap", "pinch"}
+    assert set(hold_parts(task, [around, across], ("pinch",)).contact_map.grip) == {"pinch"}
+    assert set(hold_parts(task, [around], ("enclose",)).contact_map.grip) == {"wrap"}
+    assert hold_parts(task, [], ("wrap",)) is None
 
 
 def test_the_plan_without_a_session_keeps_the_others(
