@@ -16,7 +16,7 @@ from grasptypes.objects.loading import load_object
 
 @pytest.fixture(scope="module")
 def mallet(tmp_path_factory):
-    """A GLB of a handle along z with a block across its upper end, whose names say nothing; a PLY of
+    """A GLB of a handle along z and a block across its end, whose names say nothing; a PLY of
     the same beside it."""
     scene = trimesh.Scene()
     handle = trimesh.creation.cylinder(0.014, 0.2, sections=32)
