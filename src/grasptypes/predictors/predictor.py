@@ -23,12 +23,15 @@ class Variant:
         picture_shows_task: the task is encoded as a colour shift of the image.
         task_vector: the task is appended to the second fully connected layer as a one-hot vector.
         joint_labels: the label contains the types of all tasks.
+        frequencies: the probability vector is how often each type occurs, instead of the same for
+            all types of the label.
     """
 
     row: str
     picture_shows_task: bool
     task_vector: bool
     joint_labels: bool
+    frequencies: bool = False
 
 
 VARIANTS = {
@@ -36,6 +39,7 @@ VARIANTS = {
     "task_vector": Variant("b", False, True, False),
     "task_in_image": Variant("c", True, False, False),
     "ignores_task": Variant("d", False, False, True),
+    "e_mobilenet_v2": Variant("e", False, False, True, frequencies=True),
 }
 
 
