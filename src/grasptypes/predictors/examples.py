@@ -12,7 +12,7 @@ from grasptypes.errors import InputError
 from grasptypes.labels.samples import COUNTS, TYPES
 from grasptypes.predictors.features import NO_TASK
 from grasptypes.predictors.metrics import shares
-from grasptypes.predictors.predictor import Variant
+from grasptypes.predictors.predictor import TASK_LAYER, Variant
 
 
 @dataclass(frozen=True)
@@ -26,6 +26,7 @@ class Examples:
         labels: (N, types) float32 of 0 and 1.
         probabilities: (N, types) float32, sum 1: what the softmax is trained on.
         frequencies: (N, types) float32, sum 1: how often each type occurs.
+        task_layer: the layer of the head at which the task vectors enter.
     """
 
     index: pd.DataFrame
@@ -34,6 +35,7 @@ class Examples:
     labels: np.ndarray
     probabilities: np.ndarray
     frequencies: np.ndarray
+    task_layer: int = TASK_LAYER
 
 
 def assemble(
@@ -77,6 +79,7 @@ def assemble(
         labels=label,
         probabilities=frequencies if variant.frequencies else shares(label),
         frequencies=frequencies,
+        task_layer=variant.task_layer,
     )
 
 

@@ -10,6 +10,12 @@ import pandas as pd
 from grasptypes.predictors.scoring import SHORT
 from grasptypes.reports.results import PAPER_COLUMNS, UNTRAINED
 
+FREQUENCIES = (
+    "frequencies: angular similarity to how often each type occurs; similarity gives the same "
+    "probability to all types that occur. Models with e_ learn the frequencies of both tasks "
+    f"together. {UNTRAINED} has no values: its weights could not be obtained."
+)
+
 
 def markdown(table: pd.DataFrame) -> str:
     """A table of :data:`RESULT_SCHEMA` as Markdown, mean ± spread in one cell.
@@ -40,21 +46,8 @@ def markdown(table: pd.DataFrame) -> str:
     over = "folds and seeds" if paper else "objects left out, repetitions averaged"
     spread = f"± in the table: standard deviation over {over}."
     rows = "\n".join(f"| {line} |" for line in lines)
-    paragraphs = [rows, note, spread, _frequencies(table)]
+    paragraphs = [rows, note, spread, FREQUENCIES]
     return "\n\n".join(paragraphs if paper else [*paragraphs, beside_constant(table)]) + "\n"
-
-
-def _frequencies(table: pd.DataFrame) -> str:
-    """What the column of frequencies and the rows (e) are."""
-    text = (
-        "frequencies: angular similarity to how often each type occurs; similarity gives all types "
-        "that occur the same probability. Models with e_ learn the frequencies of both tasks "
-        "together."
-    )
-    trained = table.loc[table["n_folds"] > 0, "model"]
-    if UNTRAINED in set(trained):
-        return text
-    return f"{text} {UNTRAINED} has no values because no weights of this network were found."
 
 
 def beside_constant(table: pd.DataFrame) -> str:

@@ -21,7 +21,7 @@ PAPER = {
 }
 # Its row (e): MobileNetV2 of Zandigohar et al., arXiv:2101.05357 (their InceptionV3 has 0.95).
 LITERATURE = ("literature", 0.93)
-# Their InceptionV3, trained here: a row without values if its weights were not found.
+# Their InceptionV3: a row without values, since its weights could not be obtained.
 UNTRAINED = "e_inception_v3"
 # The best constant answer for the joint labels of all tasks.
 CONSTANT_JOINT = "best_constant_joint"
@@ -89,8 +89,7 @@ def tabulate(
         for model, variant in VARIANTS.items()
         if model in groups
     ]
-    if UNTRAINED not in groups:
-        rows.append({"model": UNTRAINED, "labels": labels})
+    rows.append({"model": UNTRAINED, "labels": labels})
     for name in reference.index:
         values = {f"{short}_mean": reference.loc[name, long] for long, short in SHORT.items()}
         rows.append({"model": name, "labels": labels} | values)

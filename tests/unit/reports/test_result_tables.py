@@ -77,7 +77,7 @@ def test_a_network_without_weights_has_a_row_that_says_so(table):
     assert row.filter(like="_mean").isna().all()
     text = markdown(table)
     assert "| e_inception_v3 | published |  |  |  |  |  |  |" in text
-    assert "e_inception_v3 has no values because no weights of this network were found." in text
+    assert "e_inception_v3 has no values: its weights could not be obtained." in text
 
 
 def test_tables_of_different_backbones_are_not_mixed():
