@@ -96,7 +96,7 @@ CASES = [
         (*ASK, "--picture", "/proc/cup.png"),
         "/proc/cup.png: cannot be created",
     ),
-    asked("an unknown model", (*ASK, "--model", "e"), "--model: e", "task_vector"),
+    asked("an unknown model", (*ASK, "--model", "x"), "--model: x", "task_vector"),
     asked("unknown labels", (*ASK, "--labels", "../.."), "--labels: ../..", "simulated, published"),
     asked("an untrained model", ASK, f"{MODEL}/predictor.safetensors", "snakemake -j2"),
     Case(

@@ -11,7 +11,7 @@ import pytest
 import trimesh
 from repository import Repository
 
-MODELS = ["no_task", "task_vector", "task_in_image", "ignores_task"]
+MODELS = ["no_task", "task_vector", "task_in_image", "ignores_task", "e_mobilenet_v2"]
 SESSIONS = 3
 TASKS = {"use": 10, "handoff": -10, "wash": -20}
 NAMES = ["banana", "mug", "water_bottle"]

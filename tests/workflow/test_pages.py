@@ -27,7 +27,7 @@ from grasptypes.predictors.metrics import METRICS
 pytestmark = pytest.mark.skipif(bool(missing_programs()), reason=missing_programs())
 
 LABELS = ("simulated", "published")
-MODELS = ("no_task", "task_vector", "task_in_image", "ignores_task")
+MODELS = ("no_task", "task_vector", "task_in_image", "ignores_task", "e_mobilenet_v2")
 CATEGORIES = ["Folds", "Grasp types", "Grasps", "Objects", "Results", "Timing", "Unseen objects"]
 # The runs that the table of MLflow shows, and how many of them have a value for a metric.
 RUNS = "[...document.querySelectorAll('[role=row] a')].filter(a => a.href.includes('/runs/'))"

@@ -54,7 +54,7 @@ rule leave_out_shapes:
 
 rule tabulate_generalisation:
     input:
-        metrics=expand(rules.leave_out_shapes.output.metrics, labels=LABELS, model=MODELS),
+        metrics=expand(rules.leave_out_shapes.output.metrics, labels=LABELS, model=PAPER_MODELS),
         samples=[SAMPLES[labels] for labels in LABELS],
     output:
         table=report(

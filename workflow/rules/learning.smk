@@ -1,5 +1,6 @@
 # From renders and labels to features, folds and predictors.
-MODELS = ["no_task", "task_vector", "task_in_image", "ignores_task"]
+PAPER_MODELS = ["no_task", "task_vector", "task_in_image", "ignores_task"]
+MODELS = [*PAPER_MODELS, "e_mobilenet_v2"]
 SAMPLES = {"simulated": "data/samples.csv", "published": "data/published_samples.csv"}
 LABELS = config["labels"]
 # Whether objects can be left out: at least one other must remain to learn from.

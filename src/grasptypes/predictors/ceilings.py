@@ -7,7 +7,7 @@ from itertools import product
 import numpy as np
 import pandas as pd
 
-from grasptypes.labels.samples import labels_of
+from grasptypes.labels.samples import COUNTS, labels_of
 from grasptypes.predictors.members import members_by_object
 from grasptypes.predictors.metrics import (
     METRICS,
@@ -19,30 +19,30 @@ from grasptypes.predictors.metrics import (
 CEILINGS = ("task_blind", "best_constant", "all_types")
 
 
-def ceilings(labels: np.ndarray) -> pd.DataFrame:
+def ceilings(counts: np.ndarray) -> pd.DataFrame:
     """The three reference predictors.
 
     ``task_blind`` knows the object but not the task, ``best_constant`` gives one answer for
     everything, ``all_types`` answers all types. The first two are oracles, fitted to the labels
     that they are scored on; :func:`constant_of_others` is not. Vectors are the mean of the unit
-    label vectors. For two samples no vector is more similar to both. For more samples this
-    maximises the mean cosine, not the mean angular similarity, so the similarity of
-    ``best_constant``, and of ``task_blind`` with three or more tasks, is only a lower bound on the
-    optimum. Accuracy and precision are those of the set that is best in each: for precision, a
-    single type.
+    vectors of the labels or of the frequencies. For two samples no vector is more similar to both.
+    For more samples this maximises the mean cosine, not the mean angular similarity, so the
+    similarity of ``best_constant``, and of ``task_blind`` with three or more tasks, is only a lower
+    bound on the optimum. Accuracy and precision are those of the set that is best in each: for
+    precision, a single type.
 
     Args:
-        labels: (objects, tasks, K) truth values.
+        counts: (objects, tasks, K) how often each type occurs.
 
     Returns:
-        index :data:`CEILINGS`, columns the three measures of :mod:`grasptypes.predictors.metrics`.
+        index :data:`CEILINGS`, columns the measures of :mod:`grasptypes.predictors.metrics`.
     """
-    everything = labels.reshape(1, -1, labels.shape[-1])
-    every = np.ones(labels.shape[-1], dtype=bool)
+    everything = counts.reshape(1, -1, counts.shape[-1])
+    every = np.ones(counts.shape[-1], dtype=bool)
     rows = {
-        "task_blind": _best(labels),
+        "task_blind": _best(counts),
         "best_constant": _best(everything),
-        "all_types": _scores(labels, np.ones(len(every)), every, every),
+        "all_types": _scores(counts, every, every, every, every),
     }
     return pd.DataFrame.from_dict(rows, orient="index", columns=list(METRICS))
 
@@ -57,61 +57,75 @@ def constant_of_others(samples: pd.DataFrame, joint: bool) -> pd.DataFrame:
 
     Args:
         samples: of :mod:`grasptypes.labels.samples`.
-        joint: see :func:`labels_asked`.
+        joint: see :func:`counts_asked`.
 
     Returns:
-        index object (no variants), columns the three measures, averaged over the tasks.
+        index object (no variants), columns the measures, averaged over the tasks.
     """
-    labels = labels_asked(samples, joint)
+    counts = counts_asked(samples, joint)
     rows = {}
     for member in members_by_object(sorted(set(samples["object"])), seeds=1):
-        others = labels[member.train].reshape(1, -1, labels.shape[-1])
-        rows[member.group] = _scores(labels[member.test], *_answers(others))
+        others = counts[member.train].reshape(1, -1, counts.shape[-1])
+        rows[member.group] = _scores(counts[member.test], *_answers(others))
     return pd.DataFrame.from_dict(rows, orient="index", columns=list(METRICS))
 
 
-def labels_asked(samples: pd.DataFrame, joint: bool) -> np.ndarray:
-    """The labels that a model has to predict, with objects in alphabetical order.
+def counts_asked(samples: pd.DataFrame, joint: bool) -> np.ndarray:
+    """The counts behind the labels that a model has to predict, objects in alphabetical order.
 
     Args:
         samples: of :mod:`grasptypes.labels.samples`.
         joint: whether to predict the types of all tasks together.
 
     Returns:
-        (objects, tasks, 6) truth values; with ``joint`` (objects, 1, 6).
+        (objects, tasks, 6); with ``joint`` (objects, 1, 6).
     """
-    labels = labels_of(samples)
-    return np.asarray(labels.any(axis=1, keepdims=True)) if joint else labels
+    shape = labels_of(samples).shape
+    counts = samples.sort_values(["object", "task"])[list(COUNTS)].to_numpy().reshape(shape)
+    return np.asarray(counts.sum(axis=1, keepdims=True)) if joint else counts
 
 
-def _best(groups: np.ndarray) -> tuple[float, float, float]:
+def _best(groups: np.ndarray) -> tuple[float, ...]:
     """Scores of the best answers to groups (G, N, K) on the same groups."""
     return _scores(groups, *_answers(groups))
 
 
-def _answers(groups: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def _answers(groups: np.ndarray) -> tuple[np.ndarray, ...]:
     """The best answer to each group of samples in each measure, see :func:`ceilings`.
 
     Args:
-        groups: (G, N, K) truth values.
+        groups: (G, N, K) counts.
 
     Returns:
-        (G, 1, K) vectors, and two (G, 1, K) sets as truth values, for accuracy and for precision.
+        in the order of :data:`METRICS`, (G, 1, K) each: a vector, a set as truth values for
+        accuracy and one for precision, and a vector for the frequencies.
     """
-    units = groups / np.linalg.norm(groups, axis=-1, keepdims=True)
+    labels = groups > 0
     candidates = np.array(list(product([False, True], repeat=groups.shape[-1]))[1:])
     accurate, precise = (
-        candidates[measure(candidates[:, None, None], groups).mean(axis=-1).argmax(axis=0)]
+        candidates[measure(candidates[:, None, None], labels).mean(axis=-1).argmax(axis=0)]
         for measure in (multilabel_accuracy, multilabel_precision)
     )
-    return units.mean(axis=1, keepdims=True), accurate[:, None], precise[:, None]
+    return _middle(labels), accurate[:, None], precise[:, None], _middle(groups)
+
+
+def _middle(groups: np.ndarray) -> np.ndarray:
+    """The mean (G, 1, K) of the unit vectors of (G, N, K)."""
+    units = groups / np.linalg.norm(groups, axis=-1, keepdims=True)
+    return np.asarray(units.mean(axis=1, keepdims=True))
 
 
 def _scores(
-    labels: np.ndarray, vector: np.ndarray, accurate: np.ndarray, precise: np.ndarray
-) -> tuple[float, float, float]:
+    counts: np.ndarray,
+    vector: np.ndarray,
+    accurate: np.ndarray,
+    precise: np.ndarray,
+    frequent: np.ndarray,
+) -> tuple[float, ...]:
+    labels = counts > 0
     return (
-        float(angular_similarity(vector, labels.astype(float)).mean()),
+        float(angular_similarity(vector, labels).mean()),
         float(multilabel_accuracy(accurate, labels).mean()),
         float(multilabel_precision(precise, labels).mean()),
+        float(angular_similarity(frequent, counts).mean()),
     )

@@ -9,9 +9,10 @@ import numpy as np
 import pandas as pd
 
 from grasptypes.errors import InputError
-from grasptypes.labels.samples import LABELS, TYPES
+from grasptypes.labels.samples import COUNTS, TYPES
 from grasptypes.predictors.features import NO_TASK
-from grasptypes.predictors.predictor import Variant
+from grasptypes.predictors.metrics import shares
+from grasptypes.predictors.predictor import TASK_LAYER, Variant
 
 
 @dataclass(frozen=True)
@@ -23,7 +24,9 @@ class Examples:
         inputs: (N, F) float32 features, or (N, H, W, 3) uint8 images.
         task_vectors: (N, T) float32 one-hot, or None for a predictor without a task vector.
         labels: (N, types) float32 of 0 and 1.
-        probabilities: (N, types) float32, sum 1.
+        probabilities: (N, types) float32, sum 1: what the softmax is trained on.
+        frequencies: (N, types) float32, sum 1: how often each type occurs.
+        task_layer: the layer of the head at which the task vectors enter.
     """
 
     index: pd.DataFrame
@@ -31,6 +34,8 @@ class Examples:
     task_vectors: np.ndarray | None
     labels: np.ndarray
     probabilities: np.ndarray
+    frequencies: np.ndarray
+    task_layer: int = TASK_LAYER
 
 
 def assemble(
@@ -52,26 +57,29 @@ def assemble(
     Raises:
         InputError: an object or task has no label, or images and folds do not match.
     """
-    label_of = samples.set_index(["object", "task"])[list(LABELS)]
+    count_of = samples.set_index(["object", "task"])[list(COUNTS)]
     asked = [""] if variant.joint_labels else list(tasks)
-    rows, parts, labels = [], [], []
+    rows, parts, counts = [], [], []
     for name, group in folds.groupby("object", sort=True):
         for task in asked:
             encoding = task if variant.picture_shows_task else NO_TASK
             part = _inputs(inputs, str(name), encoding, len(group))
-            label = _label(label_of, str(name), [task] if task else list(tasks))
+            count = _count(count_of, str(name), [task] if task else list(tasks))
             rows.append(group.sort_values("view").assign(task=task))
             parts.append(part)
-            labels.append(np.tile(label, (len(group), 1)))
+            counts.append(np.tile(count, (len(group), 1)))
     index = pd.concat(rows, ignore_index=True)[["object", "view", "task", "fold"]]
-    label = np.concatenate(labels)
+    numbers = np.concatenate(counts)
+    label, frequencies = np.asarray(numbers > 0, dtype=np.float32), shares(numbers)
     vectors = np.asarray(index["task"].to_numpy()[:, None] == np.array(tasks), dtype=np.float32)
     return Examples(
         index=index,
         inputs=np.concatenate(parts),
         task_vectors=vectors if variant.task_vector else None,
         labels=label,
-        probabilities=label / label.sum(axis=1, keepdims=True),
+        probabilities=frequencies if variant.frequencies else shares(label),
+        frequencies=frequencies,
+        task_layer=variant.task_layer,
     )
 
 
@@ -90,10 +98,10 @@ def _inputs(
     return part
 
 
-def _label(label_of: pd.DataFrame, name: str, tasks: Sequence[str]) -> np.ndarray:
-    """(types,) float32: the types of the tasks together."""
-    missing = [task for task in tasks if (name, task) not in label_of.index]
+def _count(count_of: pd.DataFrame, name: str, tasks: Sequence[str]) -> np.ndarray:
+    """(types,) float32: numbers of grasps, of the tasks together."""
+    missing = [task for task in tasks if (name, task) not in count_of.index]
     if missing:
         raise InputError("samples", f"{name}, {missing[0]}", "has no label")
-    rows = [label_of.loc[(name, task)].to_numpy(dtype=np.float32) for task in tasks]
-    return np.asarray(np.maximum.reduce(rows).reshape(len(TYPES)))
+    rows = [count_of.loc[(name, task)].to_numpy(dtype=np.float32) for task in tasks]
+    return np.asarray(np.sum(rows, axis=0).reshape(len(TYPES)))

@@ -54,7 +54,8 @@ def fine_tune(
     """
     names = (*key, member.group, member.seed)
     tasks = 0 if examples.task_vectors is None else examples.task_vectors.shape[1]
-    sizes = Architecture(backbone.kind.features, tasks, settings.hidden, examples.labels.shape[1])
+    inputs, outputs = backbone.kind.features, examples.labels.shape[1]
+    sizes = Architecture(inputs, tasks, settings.hidden, outputs, examples.task_layer)
     network = Network(copy.deepcopy(backbone), BatchedMLP(sizes, [names], settings.dropout)).eval()
     thawed = thaw(network.backbone, settings.finetune, settings.finetuning.last_blocks)
     optimiser = torch.optim.AdamW(

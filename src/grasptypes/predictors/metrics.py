@@ -1,4 +1,7 @@
-"""The three measures of the paper (section IV-B) between predicted and labelled grasp types.
+"""Measures between predicted and labelled grasp types: three of the paper (section IV-B), and one.
+
+The similarity to the frequencies of types compares the softmax with how often each type occurs,
+where the paper's similarity gives every type that occurs the same probability.
 
 All functions take one row per sample and one column per grasp type, and return one value per
 sample.
@@ -10,7 +13,12 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.special import softmax
 
-METRICS = ("angular_similarity", "multilabel_accuracy", "multilabel_precision")
+METRICS = (
+    "angular_similarity",
+    "multilabel_accuracy",
+    "multilabel_precision",
+    "frequency_similarity",
+)
 SIGMOID_THRESHOLD = 0.5  # paper, section IV-B
 
 
@@ -54,6 +62,12 @@ def multilabel_precision(predicted: ArrayLike, target: ArrayLike) -> np.ndarray:
     return np.where(count > 0, both / np.maximum(count, 1), np.where(either > 0, 0.0, 1.0))
 
 
+def shares(counts: np.ndarray) -> np.ndarray:
+    """Counts (..., K) divided by their sum, in their floating type; no row is all zeros."""
+    vectors: np.ndarray = counts / counts.sum(axis=-1, keepdims=True)
+    return vectors
+
+
 def chosen(logits: ArrayLike) -> np.ndarray:
     """Types (..., K) whose sigmoid exceeds 0.5, from logits (..., K)."""
     limit = np.log(SIGMOID_THRESHOLD / (1 - SIGMOID_THRESHOLD))
@@ -62,26 +76,27 @@ def chosen(logits: ArrayLike) -> np.ndarray:
 
 
 def measures(
-    logits: ArrayLike, labels: ArrayLike, probabilities: ArrayLike
+    logits: ArrayLike, labels: np.ndarray, frequencies: ArrayLike
 ) -> dict[str, np.ndarray]:
-    """The three measures (N,) of each sample, by their names in :data:`METRICS`.
+    """The measures (N,) of each sample, by their names in :data:`METRICS`.
 
     Args:
         logits: (N, K) outputs of a predictor.
-        labels: (N, K) truth values.
-        probabilities: (N, K) probability vectors.
+        labels: (N, K) truth values, no row all zeros.
+        frequencies: (N, K) how often each type occurs.
     """
-    types = chosen(logits)
+    types, vectors = chosen(logits), softmax(logits, axis=-1)
     return {
-        "angular_similarity": angular_similarity(softmax(logits, axis=-1), probabilities),
+        "angular_similarity": angular_similarity(vectors, shares(labels)),
         "multilabel_accuracy": multilabel_accuracy(types, labels),
         "multilabel_precision": multilabel_precision(types, labels),
+        "frequency_similarity": angular_similarity(vectors, frequencies),
     }
 
 
-def evaluate(logits: ArrayLike, labels: ArrayLike, probabilities: ArrayLike) -> dict[str, float]:
-    """Means of the three measures over the samples, see :func:`measures`."""
-    values = measures(logits, labels, probabilities)
+def evaluate(logits: ArrayLike, labels: np.ndarray, frequencies: ArrayLike) -> dict[str, float]:
+    """Means of the measures over the samples, see :func:`measures`."""
+    values = measures(logits, labels, frequencies)
     return {name: float(value.mean()) for name, value in values.items()}
 
 

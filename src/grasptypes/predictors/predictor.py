@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import torch
 from torch import Tensor, nn
@@ -12,6 +12,7 @@ from grasptypes.seeds import seed
 
 OUTPUT_START = 0.1  # scale of the last layer's initial weights, relative to He initialisation
 LAYERS = 4  # fully connected layers of the head (paper, section III-D)
+TASK_LAYER = 2  # the layer at which the task vector enters (likewise)
 
 
 @dataclass(frozen=True)
@@ -21,14 +22,20 @@ class Variant:
     Attributes:
         row: letter in the paper's table.
         picture_shows_task: the task is encoded as a colour shift of the image.
-        task_vector: the task is appended to the second fully connected layer as a one-hot vector.
+        task_vector: the task is appended to the input of a fully connected layer as a one-hot
+            vector.
         joint_labels: the label contains the types of all tasks.
+        frequencies: the probability vector is how often each type occurs, instead of the same for
+            all types of the label.
+        task_layer: the layer that the vector is appended to, from 1.
     """
 
     row: str
     picture_shows_task: bool
     task_vector: bool
     joint_labels: bool
+    frequencies: bool = False
+    task_layer: int = TASK_LAYER
 
 
 VARIANTS = {
@@ -36,6 +43,7 @@ VARIANTS = {
     "task_vector": Variant("b", False, True, False),
     "task_in_image": Variant("c", True, False, False),
     "ignores_task": Variant("d", False, False, True),
+    "e_mobilenet_v2": Variant("e", False, False, True, frequencies=True),
 }
 
 
@@ -48,22 +56,20 @@ class Architecture:
         tasks: length of the task vector, 0 for a head without one.
         hidden: outputs of the first three layers.
         outputs: number of grasp types.
+        task_layer: the layer at which the task enters, from 1.
     """
 
     inputs: int
     tasks: int
     hidden: tuple[int, int, int]
     outputs: int
+    task_layer: int = TASK_LAYER
 
     def shapes(self) -> list[tuple[int, int]]:
-        """Inputs and outputs of the four layers; the task enters at the second."""
-        first, second, third = self.hidden
-        return [
-            (self.inputs, first),
-            (first + self.tasks, second),
-            (second, third),
-            (third, self.outputs),
-        ]
+        """Inputs and outputs of the four layers."""
+        inputs = [self.inputs, *self.hidden]
+        inputs[self.task_layer - 1] += self.tasks
+        return list(zip(inputs, [*self.hidden, self.outputs], strict=True))
 
 
 class BatchedMLP(nn.Module):
@@ -108,7 +114,7 @@ class BatchedMLP(nn.Module):
         """
         x = features
         for layer, (weight, bias) in enumerate(zip(self.weights, self.biases, strict=True)):
-            if layer == 1 and task is not None:
+            if layer == self.architecture.task_layer - 1 and task is not None:
                 x = torch.cat([x, task], dim=-1)
             x = torch.baddbmm(bias, x, weight)
             if layer < LAYERS - 1:
@@ -132,13 +138,15 @@ class BatchedMLP(nn.Module):
             centre: (K, 1, F), one per head.
             projection: (K, F, inputs), one per head.
         """
-        sizes = self.architecture
-        wide = Architecture(projection.shape[1], sizes.tasks, sizes.hidden, sizes.outputs)
+        narrow, inputs = self.architecture.inputs, projection.shape[1]
+        wide = replace(self.architecture, inputs=inputs)
         heads = BatchedMLP(wide, [()] * len(projection), self.dropout)
         kept = {name: t for name, t in self.state_dict().items() if name != "weights.0"}
         heads.load_state_dict(kept, strict=False)
-        heads.weights[0].copy_(torch.bmm(projection, self.weights[0]))
-        heads.biases[0].copy_(self.biases[0] - torch.bmm(centre, heads.weights[0]))
+        # Weights of the task, where it enters at the first layer, stay as they are.
+        seen = torch.bmm(projection, self.weights[0][:, :narrow])
+        heads.weights[0].copy_(torch.cat([seen, self.weights[0][:, narrow:]], dim=1))
+        heads.biases[0].copy_(self.biases[0] - torch.bmm(centre, seen))
         return heads.train(self.training)
 
 

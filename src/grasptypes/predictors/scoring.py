@@ -20,6 +20,7 @@ SHORT = {
     "angular_similarity": "sim",
     "multilabel_accuracy": "acc",
     "multilabel_precision": "prec",
+    "frequency_similarity": "freq",
 }
 
 _SHARE = pa.Check.in_range(0, 1)
@@ -77,7 +78,7 @@ def score(
         name = {"group": member.group, "seed": member.seed}
         sizes = {"n_train": len(member.train), "n_test": len(member.test)}
         rows = member.test
-        values = evaluate(outputs, examples.labels[rows], examples.probabilities[rows])
+        values = evaluate(outputs, examples.labels[rows], examples.frequencies[rows])
         metrics.append(name | sizes | values)
         numbers = pd.DataFrame(outputs, columns=[f"logit_{t}" for t in TYPES], dtype=np.float32)
         where = examples.index.iloc[rows][["object", "view", "task"]].reset_index(drop=True)

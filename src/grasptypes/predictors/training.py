@@ -52,7 +52,8 @@ def fit(
     }
     projected = {g: (features - c) @ p for g, (c, p) in projections.items()}
     tasks = 0 if examples.task_vectors is None else examples.task_vectors.shape[1]
-    sizes = Architecture(components, tasks, settings.hidden, examples.labels.shape[1])
+    outputs = examples.labels.shape[1]
+    sizes = Architecture(components, tasks, settings.hidden, outputs, examples.task_layer)
     keys = [(*key, member.group, member.seed) for member in members]
     heads = BatchedMLP(sizes, keys, settings.dropout)
     place = {group: number for number, group in enumerate(projected)}

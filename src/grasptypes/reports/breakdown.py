@@ -6,7 +6,7 @@ import numpy as np
 import pandas as pd
 import pandera.pandas as pa
 
-from grasptypes.labels.samples import LABELS, TYPES
+from grasptypes.labels.samples import COUNTS, TYPES
 from grasptypes.predictors.metrics import METRICS, chosen, measures
 from grasptypes.predictors.predictor import VARIANTS
 
@@ -70,7 +70,7 @@ def by_type(predictions: pd.DataFrame, samples: pd.DataFrame) -> pd.DataFrame:
 
 
 def by_object(predictions: pd.DataFrame, samples: pd.DataFrame) -> pd.DataFrame:
-    """The mean of the three measures for each object, over all folds and seeds.
+    """The mean of the measures for each object, over all folds and seeds.
 
     Args:
         predictions: of `results.PREDICTION_SCHEMA`.
@@ -79,8 +79,8 @@ def by_object(predictions: pd.DataFrame, samples: pd.DataFrame) -> pd.DataFrame:
     Returns:
         columns object and `METRICS`.
     """
-    truth = labels_for(predictions, samples)
-    values = measures(predictions[list(LOGITS)].to_numpy(dtype=np.float64), truth, truth)
+    counts = counts_for(predictions, samples)
+    values = measures(predictions[list(LOGITS)].to_numpy(dtype=np.float64), counts > 0, counts)
     table = pd.DataFrame({"object": predictions["object"].to_numpy(), **values})
     return table.groupby("object", as_index=False)[list(METRICS)].mean().round(6)
 
@@ -97,14 +97,19 @@ def by_left_out_object(metrics: pd.DataFrame) -> pd.DataFrame:
 
 def labels_for(predictions: pd.DataFrame, samples: pd.DataFrame) -> np.ndarray:
     """(N, types) labels for each prediction; without a task, those of all tasks together."""
-    alone = samples.set_index(["object", "task"])[list(LABELS)]
-    joint = alone.groupby("object").max()
+    return counts_for(predictions, samples) > 0
+
+
+def counts_for(predictions: pd.DataFrame, samples: pd.DataFrame) -> np.ndarray:
+    """(N, types) numbers of grasps behind the labels of :func:`labels_for`."""
+    alone = samples.set_index(["object", "task"])[list(COUNTS)]
+    joint = alone.groupby("object").sum()
     joint.index = pd.MultiIndex.from_arrays(
         [joint.index, [""] * len(joint)], names=alone.index.names
     )
     keys = pd.MultiIndex.from_frame(predictions[["object", "task"]])
-    truth: np.ndarray = pd.concat([alone, joint]).loc[keys].to_numpy(dtype=bool)
-    return truth
+    counts: np.ndarray = pd.concat([alone, joint]).loc[keys].to_numpy()
+    return counts
 
 
 def _share(part: np.ndarray, whole: np.ndarray) -> np.ndarray:

@@ -15,18 +15,24 @@ from grasptypes.labels.samples import TYPES
 from grasptypes.predictors.predictor import VARIANTS
 from grasptypes.predictors.scoring import SHORT
 from grasptypes.reports.breakdown import KNOWN, UNSEEN
-from grasptypes.reports.results import PAPER as PAPER_TABLE
-from grasptypes.reports.results import PAPER_COLUMNS, constant_rows
+from grasptypes.reports.results import PAPER_COLUMNS, constant_rows, paper_figures
 
 LABELLED = {
     "no_task": "(a) no task",
     "task_vector": "(b) task vector",
     "task_in_image": "(c) task in image",
     "ignores_task": "(d) ignores task",
+    "e_mobilenet_v2": "(e) frequencies",
 }
-MEASURES = {"sim": "angular similarity", "acc": "multilabel accuracy", "prec": "precision"}
+MEASURES = {
+    "sim": "angular similarity",
+    "acc": "multilabel accuracy",
+    "prec": "precision",
+    "freq": "similarity to frequencies",
+}
 CONSTANT_LABEL = "constant answer fitted to the other objects"
 OURS, PAPER, CEILING, CONSTANT = "#2a6f97", "#c9a227", "#6c757d", "#b23a48"
+FIFTH = "#4f772d"  # for one more line
 # End of the axes, and the share of their height for the numbers at the base of the bars.
 TOP, FOOT = 1.02, 0.2
 # Width over which the seeds of a model are spread, in axis units.
@@ -43,7 +49,7 @@ def draw_table(table: pd.DataFrame) -> Figure:
     """
     used = table[table["n_folds"] > 0]
     sources = _sources(used)
-    figure = Figure(figsize=(10, 3.2 * len(sources)))
+    figure = Figure(figsize=(13, 3.2 * len(sources)))
     panels = _rows_of_panels(sources, len(MEASURES), figure, sharey=True)
     for labels, row in panels.items():
         for axes, (short, title) in zip(row, MEASURES.items(), strict=True):
@@ -89,7 +95,7 @@ def _has_paper(rows: pd.DataFrame) -> bool:
 
 def _bars(axes: Axes, rows: pd.DataFrame, short: str) -> None:
     place = np.arange(len(rows))
-    paper = _has_paper(rows)
+    paper = f"paper_{short}" in rows and _has_paper(rows)
     axes.bar(
         place - 0.2 * paper,
         rows[f"{short}_mean"],
@@ -101,8 +107,10 @@ def _bars(axes: Axes, rows: pd.DataFrame, short: str) -> None:
     )
     _numbers(axes, place - 0.2 * paper, [f"{mean:.3f}" for mean in rows[f"{short}_mean"]], "white")
     if paper:
-        axes.bar(place + 0.2, rows[f"paper_{short}"], 0.4, color=PAPER, label="paper")
-        _numbers(axes, place + 0.2, [f"{mean:.2f}" for mean in rows[f"paper_{short}"]], "black")
+        figures = rows[f"paper_{short}"]
+        axes.bar(place + 0.2, figures, 0.4, color=PAPER, label="paper")
+        texts = ["" if np.isnan(figure) else f"{figure:.2f}" for figure in figures]
+        _numbers(axes, place + 0.2, texts, "black")
     if f"ceiling_{short}" in rows:
         _steps(axes, rows[f"ceiling_{short}"], CEILING, "ceiling of the labels")
     _name_models(axes, list(rows["model"]), fontsize=8)
@@ -117,11 +125,11 @@ def draw_folds(metrics: pd.DataFrame) -> Figure:
         metrics: of `results.METRIC_SCHEMA`; one row of panels per label source.
     """
     sources = _sources(metrics)
-    figure = Figure(figsize=(10, 0.6 + 3.2 * len(sources)), layout="constrained")
+    figure = Figure(figsize=(13, 0.6 + 3.2 * len(sources)), layout="constrained")
     panels = _rows_of_panels(sources, len(SHORT), figure, sharey="row")
     for labels, row in panels.items():
-        for column, (axes, measure) in enumerate(zip(row, SHORT, strict=True)):
-            _dots(axes, metrics[metrics["labels"] == labels], measure, column)
+        for axes, measure in zip(row, SHORT, strict=True):
+            _dots(axes, metrics[metrics["labels"] == labels], measure)
             axes.set_title(MEASURES[SHORT[measure]], fontsize="medium")
         row[0].set_ylabel(f"{labels} labels")
     _legend(figure, loc="outside lower center", ncols=3)
@@ -151,7 +159,7 @@ def draw_losses(curves: dict[tuple[str, str], pd.DataFrame]) -> Figure:
     return figure
 
 
-def _dots(axes: Axes, rows: pd.DataFrame, measure: str, column: int) -> None:
+def _dots(axes: Axes, rows: pd.DataFrame, measure: str) -> None:
     models = _models(set(rows["model"]))
     seeds = sorted(set(rows["seed"]))
     place = rows["model"].map(models.index)
@@ -161,7 +169,8 @@ def _dots(axes: Axes, rows: pd.DataFrame, measure: str, column: int) -> None:
         place + beside, rows[measure], s=14, color=OURS, alpha=0.6, linewidths=0, label=name
     )
     means = [rows[rows["model"] == model][measure].mean() for model in models]
-    papers = [PAPER_TABLE[model][column] for model in models]
+    column = f"paper_{SHORT[measure]}"
+    papers = [paper_figures(model).get(column, np.nan) for model in models]
     left = np.arange(len(models)) - 0.38
     for heights, colour, name in ((means, "black", "mean"), (papers, PAPER, "paper")):
         axes.hlines(heights, left, left + 0.76, colors=colour, label=name)
@@ -262,7 +271,7 @@ def _lines(axes: Axes, rows: pd.DataFrame) -> None:
         f"{most} pictures an object": ("-", pictures == most),
         f"{least} pictures a shape": ("--", rows["views"] == least),
     }
-    colours = dict(zip(LABELLED, (OURS, PAPER, CEILING, CONSTANT), strict=True))
+    colours = dict(zip(LABELLED, (OURS, PAPER, CEILING, CONSTANT, FIFTH), strict=True))
     for model in _models(set(rows["model"])):
         colour = colours[model]
         for kind, (style, chosen) in series.items():

@@ -8,7 +8,13 @@ import numpy as np
 import pandas as pd
 
 from grasptypes.predictors.scoring import SHORT
-from grasptypes.reports.results import PAPER_COLUMNS
+from grasptypes.reports.results import PAPER_COLUMNS, UNTRAINED
+
+FREQUENCIES = (
+    "frequencies: angular similarity to how often each type occurs; similarity gives the same "
+    "probability to all types that occur. Models with e_ learn the frequencies of both tasks "
+    f"together. {UNTRAINED} has no values: its weights could not be obtained."
+)
 
 
 def markdown(table: pd.DataFrame) -> str:
@@ -18,7 +24,7 @@ def markdown(table: pd.DataFrame) -> str:
     with the constant answer fitted to the other objects.
     """
     paper = table[list(PAPER_COLUMNS)].notna().any(axis=None)
-    heads = ["model", "labels", "similarity", "accuracy", "precision"]
+    heads = ["model", "labels", "similarity", "accuracy", "precision", "frequencies"]
     heads += ["paper", "ceiling"] if paper else ["ceiling"]
     lines = [" | ".join(heads), " | ".join("---" for _ in heads)]
     for row in table.to_dict("records"):
@@ -26,7 +32,7 @@ def markdown(table: pd.DataFrame) -> str:
         cells += [_spread(row[f"{s}_mean"], row[f"{s}_sd"]) for s in SHORT.values()]
         if paper:
             cells.append(_joined(row[name] for name in PAPER_COLUMNS))
-        cells.append(_joined(row[f"ceiling_{short}"] for short in ("sim", "acc")))
+        cells.append(_joined(row[f"ceiling_{short}"] for short in ("sim", "acc", "freq")))
         lines.append(" | ".join(cells))
     used = table[table["n_folds"] > 0]
     note = "; ".join(
@@ -39,8 +45,9 @@ def markdown(table: pd.DataFrame) -> str:
     )
     over = "folds and seeds" if paper else "objects left out, repetitions averaged"
     spread = f"± in the table: standard deviation over {over}."
-    verdict = "" if paper else f"\n{beside_constant(table)}\n"
-    return "\n".join(f"| {line} |" for line in lines) + f"\n\n{note}\n\n{spread}\n{verdict}"
+    rows = "\n".join(f"| {line} |" for line in lines)
+    paragraphs = [rows, note, spread, FREQUENCIES]
+    return "\n\n".join(paragraphs if paper else [*paragraphs, beside_constant(table)]) + "\n"
 
 
 def beside_constant(table: pd.DataFrame) -> str:
@@ -63,8 +70,8 @@ def beside_constant(table: pd.DataFrame) -> str:
     sentences.append(
         "constant_of_others is fitted to the labels that a model is trained on; best_constant to "
         "those of all objects, the one left out among them. Both give one answer to every object "
-        "and task, each measure its own best one; those to ignores_task, which is asked for the "
-        "types of all tasks together, are the rows in _joint."
+        "and task, each measure its own best one; those to the models that are asked for the "
+        "types of all tasks together (ignores_task and those with e_) are the rows in _joint."
     )
     return "\n\n".join(sentences)
 

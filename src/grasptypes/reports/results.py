@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+import numpy as np
 import pandas as pd
 import pandera.pandas as pa
 
-from grasptypes.predictors.ceilings import ceilings, constant_of_others, labels_asked
+from grasptypes.predictors.ceilings import ceilings, constant_of_others, counts_asked
 from grasptypes.predictors.predictor import VARIANTS
 from grasptypes.predictors.scoring import SHORT
 
@@ -20,11 +21,13 @@ PAPER = {
 }
 # Its row (e): MobileNetV2 of Zandigohar et al., arXiv:2101.05357 (their InceptionV3 has 0.95).
 LITERATURE = ("literature", 0.93)
+# Their InceptionV3: a row without values, since its weights could not be obtained.
+UNTRAINED = "e_inception_v3"
 # The best constant answer for the joint labels of all tasks.
 CONSTANT_JOINT = "best_constant_joint"
 # The constant answer fitted to the other objects, by whether labels are joint.
 CONSTANT_OF_OTHERS = {False: "constant_of_others", True: "constant_of_others_joint"}
-PAPER_COLUMNS = tuple(f"paper_{short}" for short in SHORT.values())
+PAPER_COLUMNS = ("paper_sim", "paper_acc", "paper_prec")
 _SHARE = pa.Check.in_range(0, 1)
 RESULT_SCHEMA = pa.DataFrameSchema(
     {
@@ -42,6 +45,7 @@ RESULT_SCHEMA = pa.DataFrameSchema(
         **{name: pa.Column(float, nullable=True) for name in PAPER_COLUMNS},
         "ceiling_sim": pa.Column(float, _SHARE, nullable=True),
         "ceiling_acc": pa.Column(float, _SHARE, nullable=True),
+        "ceiling_freq": pa.Column(float, _SHARE, nullable=True),
         "sim_over_constant": pa.Column(float, pa.Check.in_range(-1, 1), nullable=True),
         "sim_over_constant_se": pa.Column(float, pa.Check.ge(0), nullable=True),
     },
@@ -58,8 +62,8 @@ def tabulate(
     task-blind ceiling for the model that does not know the task, 1 for the others.
     ``sim_over_constant`` is the similarity on an unseen object minus that of the constant answer
     fitted to the other objects, mean and standard error over the objects left out (paired). The
-    reference predictors and the literature have their own rows; the model that ignores the task
-    predicts joint labels and therefore has its own constant answers.
+    reference predictors and the literature have their own rows; the models that ignore the task
+    predict joint labels and therefore have their own constant answers.
 
     Args:
         metrics: rows of :data:`METRIC_SCHEMA` for this label source.
@@ -79,18 +83,24 @@ def tabulate(
     rows = [
         {"model": model, "labels": labels}
         | _trained(groups[model], unseen)
-        | ({} if unseen else dict(zip(PAPER_COLUMNS, PAPER[model], strict=True)))
+        | ({} if unseen else paper_figures(model))
         | _ceiling(model, reference.loc["task_blind"])
         | _over(constants.get(variant.joint_labels), groups[model])
         for model, variant in VARIANTS.items()
         if model in groups
     ]
+    rows.append({"model": UNTRAINED, "labels": labels})
     for name in reference.index:
         values = {f"{short}_mean": reference.loc[name, long] for long, short in SHORT.items()}
         rows.append({"model": name, "labels": labels} | values)
     if not unseen:
         rows.append({"model": LITERATURE[0], "labels": "", "paper_sim": LITERATURE[1]})
     return _typed(pd.DataFrame(rows, columns=list(RESULT_SCHEMA.columns)))
+
+
+def paper_figures(model: str) -> dict[str, float]:
+    """The paper's figures for a model by :data:`PAPER_COLUMNS`; NaN if it has none."""
+    return dict(zip(PAPER_COLUMNS, PAPER.get(model, (np.nan,) * 3), strict=True))
 
 
 def constant_rows(table: pd.DataFrame, labels: str) -> pd.DataFrame:
@@ -116,8 +126,8 @@ def _reference_scores(
     Args:
         constants: those of the other objects, by whether labels are joint.
     """
-    reference = ceilings(labels_asked(samples, joint=False))
-    joint_reference = ceilings(labels_asked(samples, joint=True))
+    reference = ceilings(counts_asked(samples, joint=False))
+    joint_reference = ceilings(counts_asked(samples, joint=True))
     reference.loc[CONSTANT_JOINT] = joint_reference.loc["best_constant"]
     for joint, scores in constants.items():
         reference.loc[CONSTANT_OF_OTHERS[joint]] = scores.mean()
@@ -145,6 +155,7 @@ def _ceiling(model: str, task_blind: pd.Series) -> dict[str, float]:
     return {
         "ceiling_sim": 1.0 if knows else task_blind["angular_similarity"],
         "ceiling_acc": 1.0 if knows else task_blind["multilabel_accuracy"],
+        "ceiling_freq": 1.0 if knows else task_blind["frequency_similarity"],
     }
 
 

@@ -9,7 +9,9 @@ import pandas as pd
 
 from grasptypes.predictors.scoring import SHORT
 
-MEASURES = {short: measure.split("_")[-1] for measure, short in SHORT.items()}
+MEASURES = dict(
+    zip(SHORT.values(), ("similarity", "accuracy", "precision", "frequencies"), strict=True)
+)
 DIGITS = 4  # two more than in the paper's tables
 
 
@@ -22,7 +24,8 @@ def model_scores(
         known, unseen: tables of `results.RESULT_SCHEMA` for known and left-out objects.
 
     Returns:
-        similarity, accuracy and precision, and the same under ``unseen`` if measured.
+        similarity, accuracy, precision and similarity to the frequencies (``frequencies``), and
+        the same under ``unseen`` if measured.
     """
     scores = {name: row for name, row in _measures(known).items() if name[1] in models}
     for name, row in _measures(unseen).items():

@@ -18,8 +18,8 @@ class PhotoLimits(Settings):
 class PredictSettings(Settings):
     """Defaults and limits of `grasptypes predict`."""
 
-    model: Literal["no_task", "task_vector", "task_in_image", "ignores_task"] = setting(
-        "a model of Table I"
+    model: Literal["no_task", "task_vector", "task_in_image", "ignores_task", "e_mobilenet_v2"] = (
+        setting("a model of Table I")
     )
     labels: Literal["simulated", "published"] = setting("label source the model was trained on")
     views: int = setting("number of views of a mesh", ge=1, le=1000)

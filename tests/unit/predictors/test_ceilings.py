@@ -14,7 +14,7 @@ PUBLISHED = Path(__file__).parents[3] / "assets" / "published_labels.csv"
 
 def test_labels_without_a_task_leave_no_ceiling_below_one():
     labels = np.array([[[1, 0, 0]] * 2, [[0, 1, 1]] * 2], dtype=bool)
-    assert ceilings(labels).loc["task_blind"].tolist() == pytest.approx([1, 1, 1])
+    assert ceilings(labels).loc["task_blind"].tolist() == pytest.approx([1, 1, 1, 1])
 
 
 def test_one_object_by_hand():
@@ -22,7 +22,18 @@ def test_one_object_by_hand():
     # The vector half-way between orthogonal ones is 45 degrees from both; any set is half right.
     assert table.loc["task_blind", "angular_similarity"] == pytest.approx(0.5)
     assert table.loc["task_blind", "multilabel_accuracy"] == pytest.approx(0.5)
-    assert table.loc["all_types"].tolist() == pytest.approx([0.5, 0.5, 0.5])
+    assert table.loc["all_types"].tolist() == pytest.approx([0.5, 0.5, 0.5, 0.5])
+
+
+def test_frequencies_have_an_answer_of_their_own():
+    # Three of four grasps are of the first type for one task, all four for the other.
+    table = ceilings(np.array([[[3, 1], [4, 0]]]))
+    angle = np.arctan(1 / 3)  # between the frequencies, halved by the best answer
+    blind = table.loc["task_blind"]
+    assert blind["frequency_similarity"] == pytest.approx(1 - angle / np.pi)
+    assert blind["angular_similarity"] == pytest.approx(0.75)  # of the sets: 45 degrees, halved
+    uniform = 1 - 2 / np.pi * np.mean([np.pi / 4 - angle, np.pi / 4])
+    assert table.loc["all_types", "frequency_similarity"] == pytest.approx(uniform)
 
 
 def test_each_measure_has_its_own_best_set():
@@ -53,10 +64,10 @@ def samples(types):
 def test_the_constant_of_the_others_does_not_know_the_object_left_out():
     known = {("bowl", "use"): [0], ("cup", "use"): [0], ("mug", "use"): [0], ("pan", "use"): [1]}
     table = constant_of_others(samples(known), joint=False)
-    assert table.loc["pan"].tolist() == pytest.approx([0, 0, 0])  # nobody else has type 1
+    assert table.loc["pan"].tolist() == pytest.approx([0, 0, 0, 0])  # nobody else has type 1
     # The mean of two of type 0 and one of type 1 is at an angle of atan(1/2) from type 0.
     third = 1 - 2 / np.pi * np.arctan(1 / 2)
-    assert table.loc["mug"].tolist() == pytest.approx([third, 1, 1])
+    assert table.loc["mug"].tolist() == pytest.approx([third, 1, 1, third])
     assert list(table.index) == ["bowl", "cup", "mug", "pan"]
     everything = ceilings(labels_of(samples(known))).loc["best_constant", "angular_similarity"]
     assert table["angular_similarity"].mean() < everything

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 from grasptypes.errors import InputError
-from grasptypes.labels.samples import LABELS
+from grasptypes.labels.samples import COUNTS, LABELS
 from grasptypes.predictors.examples import assemble
 from grasptypes.predictors.predictor import VARIANTS
 
@@ -48,6 +48,22 @@ def test_joint_labels_hold_the_types_of_all_tasks():
     table = learning.samples().set_index("object")
     union = table.loc["knife", list(LABELS)].max().to_numpy(float)
     np.testing.assert_array_equal(examples.labels[row_of(examples, object="knife")], union)
+
+
+def test_frequencies_are_shares_of_the_grasps_and_only_learnt_where_asked():
+    counts = learning.samples().set_index("object").loc["knife", list(COUNTS)].sum().to_numpy(float)
+    for model in ("ignores_task", "e_mobilenet_v2"):
+        examples = learning.examples(model)
+        row = row_of(examples, object="knife")
+        np.testing.assert_allclose(examples.frequencies[row], counts / counts.sum(), rtol=1e-6)
+        learnt = counts if model == "e_mobilenet_v2" else counts > 0
+        np.testing.assert_allclose(examples.probabilities[row], learnt / learnt.sum(), rtol=1e-6)
+        np.testing.assert_array_equal(examples.labels[row], counts > 0)
+    alone = learning.examples("no_task")
+    table = learning.samples().set_index(["object", "task"])
+    numbers = table.loc[("knife", "show"), list(COUNTS)].to_numpy(float)
+    row = row_of(alone, object="knife", task="show")
+    np.testing.assert_allclose(alone.frequencies[row], numbers / numbers.sum(), rtol=1e-6)
 
 
 def test_what_is_missing_is_named():

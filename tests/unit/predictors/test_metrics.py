@@ -88,7 +88,10 @@ def test_many_samples_are_measured_like_one(measure):
 def test_evaluation_averages_over_samples():
     logits = np.array([[9.0, -9.0], [9.0, 9.0]])
     labels = np.array([[1, 0], [1, 0]])
-    values = evaluate(logits, labels, labels)
+    values = evaluate(logits, labels, [[1, 1], [1, 3]])
     assert values["multilabel_accuracy"] == pytest.approx(0.75)
     assert values["multilabel_precision"] == pytest.approx(0.75)
     assert values["angular_similarity"] == pytest.approx(0.75, abs=1e-6)
+    beside = np.arctan(3) - np.pi / 4  # of the second, whose first type is a quarter of the grasps
+    frequency = 1 - 2 / np.pi * np.mean([np.pi / 4, beside])
+    assert values["frequency_similarity"] == pytest.approx(frequency, abs=1e-6)

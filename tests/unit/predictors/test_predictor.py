@@ -1,5 +1,7 @@
 """BatchedMLP: four layers, the task at the second, and many side by side."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 import torch
@@ -8,6 +10,21 @@ from scipy.special import softmax
 from grasptypes.predictors.predictor import LAYERS, Architecture, BatchedMLP, loss
 
 SIZES = Architecture(inputs=10, tasks=3, hidden=(8, 7, 5), outputs=6)
+
+
+@pytest.mark.parametrize("layer", [1, 2, 3, 4])
+def test_the_task_can_join_at_any_layer(layer):
+    heads = BatchedMLP(replace(SIZES, task_layer=layer), [("a",), ("b",)]).eval()
+    plain = replace(SIZES, tasks=0).shapes()
+    wider = [a[0] - b[0] for a, b in zip(heads.architecture.shapes(), plain, strict=True)]
+    assert wider == [3 * (number == layer) for number in (1, 2, 3, 4)]
+    x, tasks = torch.randn(2, 3, 20), torch.eye(3).expand(2, -1, -1)
+    centre, projection = torch.randn(2, 1, 20), torch.randn(2, 20, 10)
+    expected = heads((x - centre) @ projection, tasks)
+    answers = heads.absorb(centre, projection)(x, tasks)
+    torch.testing.assert_close(answers, expected, rtol=1e-4, atol=1e-4)
+    same = x[:, :1].expand(-1, 3, -1)  # one image for three tasks
+    assert not torch.allclose(heads.absorb(centre, projection)(same, tasks)[:, 0], answers[:, 1])
 
 
 def test_the_head_has_four_layers_and_the_task_joins_at_the_second():

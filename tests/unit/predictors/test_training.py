@@ -35,6 +35,13 @@ def test_what_the_inputs_tell_is_learnt(model):
     assert np.isfinite(curves).all()
 
 
+def test_an_estimator_learns_how_often_types_occur():
+    metrics = trained("e_mobilenet_v2", learning.SETTINGS.changed(epochs=40))[0]
+    assert metrics["frequency_similarity"].min() > 0.9
+    sets = trained("ignores_task", learning.SETTINGS.changed(epochs=40))[0]
+    assert metrics["frequency_similarity"].mean() > sets["frequency_similarity"].mean() + 0.05
+
+
 def test_without_the_task_it_cannot_be_known():
     assert trained("no_task")[0]["multilabel_accuracy"].max() < 0.9
 

@@ -23,7 +23,8 @@ def metrics(model, similarities):
     """Similarities on both objects of the first seed, then of the second."""
     rows = [
         {"group": OBJECTS[k % 2], "seed": k // 2, "n_train": 8, "n_test": 2,
-         "angular_similarity": s, "multilabel_accuracy": 0.5, "multilabel_precision": 1.0}
+         "angular_similarity": s, "multilabel_accuracy": 0.5, "multilabel_precision": 1.0,
+         "frequency_similarity": s / 2}
         for k, s in enumerate(similarities)
     ]  # fmt: skip
     table = with_source(pd.DataFrame(rows), ("published", model), BACKBONE, "none")
@@ -58,14 +59,25 @@ def test_mean_and_spread_over_folds_and_seeds(table):
 
 def test_rows_stand_in_the_papers_order_with_their_ceilings(table):
     assert table["model"].tolist() == [
-        "no_task", "task_vector", "task_blind", "best_constant", "all_types", "best_constant_joint",
-        "literature",
+        "no_task", "task_vector", "e_inception_v3", "task_blind", "best_constant", "all_types",
+        "best_constant_joint", "literature",
     ]  # fmt: skip
     rows = table.set_index("model")
     assert rows.loc["no_task", "ceiling_sim"] == pytest.approx(0.5)
     assert rows.loc["task_vector", "ceiling_sim"] == 1.0
     assert rows.loc["task_blind", "sim_mean"] == pytest.approx(0.5)
     assert rows.loc["literature", "paper_sim"] == 0.93
+    assert rows.loc["no_task", "freq_mean"] == pytest.approx(0.225)
+    assert rows.loc["no_task", "ceiling_freq"] == pytest.approx(0.5)
+
+
+def test_a_network_without_weights_has_a_row_that_says_so(table):
+    row = table.set_index("model").loc["e_inception_v3"]
+    assert row["n_folds"] == 0
+    assert row.filter(like="_mean").isna().all()
+    text = markdown(table)
+    assert "| e_inception_v3 | published |  |  |  |  |  |  |" in text
+    assert "e_inception_v3 has no values: its weights could not be obtained." in text
 
 
 def test_tables_of_different_backbones_are_not_mixed():
@@ -79,6 +91,7 @@ def test_tables_of_different_backbones_are_not_mixed():
 def test_markdown_names_backbone_and_weights(table):
     text = markdown(table)
     assert "| no_task | published | 0.450 ± 0.191 |" in text
+    assert "| 1.000 ± 0.000 | 0.225 ± 0.096 | 0.81 / 0.85 / 0.87 | 0.50 / 0.50 / 0.50 |" in text
     assert "mobilenet_v2, a.pth (0a1b2c3d), 2 groups x 2 seeds" in text
     assert not re.search("nan|constant_of_others", text)
 
