@@ -14,6 +14,7 @@ from grasptypes.objects.own_objects import measured_map
 from grasptypes.objects.reference_meshes import reference_meshes
 from grasptypes.objects.variants import all_objects, all_variants, base_of
 from grasptypes.predictors.weights import DOWNLOAD_SHA256_START, WEIGHTS_VARIABLE, chosen_weights
+from grasptypes.segmentation import NETWORK
 from grasptypes.settings.roles import ROLES
 from grasptypes.settings.tasks import TASKS as TASKS_FILE
 from grasptypes.start_up import check_start

@@ -52,6 +52,7 @@ rule map_contacts:
     params:
         settings=settings("contact_maps"),
         segmentation=config["segmentation"],
+        network=hashes(str(NETWORK)),
         knowledge=hashes(KNOWLEDGE),
         unit=lambda wildcards: map_unit(wildcards.object),
         measured=lambda wildcards: hashes(measured_input(wildcards)),

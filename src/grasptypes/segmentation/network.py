@@ -13,9 +13,7 @@ from scipy.special import softmax
 
 from grasptypes.errors import InputError
 from grasptypes.files import read_npz, write_npz
-
-# The network that comes with the package; `snakemake data/segmentation/network.npz` computes it.
-TRAINED = Path(__file__).with_name("network.npz")
+from grasptypes.segmentation import NETWORK
 
 
 @dataclass(frozen=True)
@@ -87,4 +85,4 @@ def read_network(path: str | Path) -> RoleNetwork:
 @cache
 def trained_network() -> RoleNetwork:
     """The network that comes with the package."""
-    return read_network(TRAINED)
+    return read_network(NETWORK)

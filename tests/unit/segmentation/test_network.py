@@ -9,7 +9,8 @@ from tests.unit.settings import PARAMS
 from grasptypes.errors import InputError
 from grasptypes.files import read_npz, write_npz
 from grasptypes.kinds.modelling import build_shape
-from grasptypes.segmentation.network import TRAINED, read_network, trained_network
+from grasptypes.segmentation import NETWORK
+from grasptypes.segmentation.network import read_network, trained_network
 from grasptypes.segmentation.parts import find_parts
 from grasptypes.segmentation.samples import sample_roles, sample_shapes
 from grasptypes.segmentation.training import family_folds, train_network
@@ -44,7 +45,7 @@ def test_it_learns_what_it_is_shown(samples, tmp_path):
 
 
 def test_a_file_that_lacks_a_layer_is_no_network(tmp_path):
-    arrays = read_npz(TRAINED)
+    arrays = read_npz(NETWORK)
     del arrays["weights_2"]
     write_npz(tmp_path / "network.npz", arrays)
     with pytest.raises(InputError, match=r"network\.npz: weights_2"):
