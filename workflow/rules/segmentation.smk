@@ -107,3 +107,25 @@ rule tabulate_scan_plans:
         "Tabulating plans with and without parts"
     script:
         "../scripts/tabulate_scan_plans.py"
+
+
+# Twenty objects that none of the kinds was measured on. GRASPTYPES_YCB names a checkout of elpis-lab/YCB_Dataset.
+rule inspect_ycb:
+    output:
+        table="reports/segmentation/ycb.csv",
+        sheet="reports/segmentation/ycb.png",
+    params:
+        folder=real_objects(os.environ)["ycb"],
+        names=[
+            *("power_drill", "pitcher_base", "spatula", "bleach_cleanser", "hammer", "knife"),
+            *("phillips_screwdriver", "scissors", "mug", "skillet_lid", "spoon", "banana"),
+            *("mustard_bottle", "adjustable_wrench", "large_clamp", "bowl", "plate"),
+            *("padlock", "tomato_soup_can", "windex_bottle"),
+        ],
+        params=dict(config),
+        network=hashes(str(NETWORK)),
+        code=script_hash("inspect_ycb"),
+    message:
+        "Inspecting YCB objects"
+    script:
+        "../scripts/inspect_ycb.py"

@@ -19,8 +19,10 @@ from grasptypes.objects.object_files import Surface
 from grasptypes.renders.contact_pictures import contact_picture, look_at, plain
 from grasptypes.renders.renderer import Camera
 from grasptypes.renders.scene import Part
+from grasptypes.reports.sheets import Tile
 from grasptypes.segmentation.parts import Parts
 from grasptypes.settings.params import Params
+from grasptypes.settings.renders import ContactPictureSettings
 
 Array = NDArray[np.float64]
 
@@ -46,17 +48,11 @@ def inspection_png(inspection: Inspection, params: Params) -> bytes:
 
 def draw_inspection(inspection: Inspection, params: Params) -> Figure:
     """The same as a figure: a column for the parts, and one for each task."""
-    settings, surface = params.contact_pictures, inspection.geometry.surface
+    settings = params.contact_pictures
     mapped = [each for each in inspection.tasks if each.contact_map]
     colours = role_colours(inspection.parts)
     with Camera(plain(params.renders, settings.size_px)) as camera:
-        parts = coloured_parts(inspection, colours)
-        views = [both_sides(parts, camera, settings.azimuth_rad, settings.elevation_rad)]
-        for each in mapped:
-            contact_map = each.contact_map
-            assert contact_map is not None  # those of `mapped` have one
-            probability = contact_map.probability
-            views.append(contact_picture(contact_map, probability, surface, camera, settings))
+        views = inspection_views(inspection, camera, settings)
     figure = Figure(figsize=(4.2 * len(views), 3.0), layout="constrained")
     panels = figure.subplots(1, len(views), squeeze=False)[0]
     titles = [f"{inspection.geometry.name}: roles from {inspection.parts.basis}"]
@@ -73,6 +69,33 @@ def draw_inspection(inspection: Inspection, params: Params) -> Figure:
         panel.text(0.5, 0.0, "\n".join(held), transform=panel.transAxes, ha="center", va="top",
                    fontsize="x-small", parse_math=False)  # fmt: skip
     return figure
+
+
+def inspection_views(
+    inspection: Inspection, camera: Camera, settings: ContactPictureSettings
+) -> list[NDArray[np.uint8]]:
+    """The parts, then the contact map of each task that has one, (H, 2 H, 3) each."""
+    parts = coloured_parts(inspection, role_colours(inspection.parts))
+    views = [both_sides(parts, camera, settings.azimuth_rad, settings.elevation_rad)]
+    for each in inspection.tasks:
+        if each.contact_map:
+            values, surface = each.contact_map.probability, inspection.geometry.surface
+            views.append(contact_picture(each.contact_map, values, surface, camera, settings))
+    return views
+
+
+def inspection_tiles(
+    inspection: Inspection, camera: Camera, settings: ContactPictureSettings
+) -> list[Tile]:
+    """The same views with captions, for a sheet of several objects."""
+    roles = ", ".join(role_colours(inspection.parts))
+    captions = [f"{inspection.geometry.name}: {roles}"]
+    for each in inspection.tasks:
+        if each.contact_map:
+            grip, part, share = each.shares()[0]
+            captions.append(f"{each.task}: {share:.0%} {grip} {part}")
+    views = inspection_views(inspection, camera, settings)
+    return [Tile(view, caption) for view, caption in zip(views, captions, strict=True)]
 
 
 def both_sides(

@@ -50,6 +50,14 @@ ROLE_SCHEMA = pa.DataFrameSchema(
     strict=True,
     ordered=True,
 )
+FOUND_SCHEMA = pa.DataFrameSchema(
+    {
+        "object": pa.Column(str, unique=True),
+        "found": pa.Column(str, description="parts that were found, and how sure they are"),
+    },
+    strict=True,
+    ordered=True,
+)
 SCAN_SCHEMA = pa.DataFrameSchema(
     {
         "object": pa.Column(str, unique=True),
