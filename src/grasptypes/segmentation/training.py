@@ -82,6 +82,13 @@ def _weights(families: NDArray[np.str_]) -> Tensor:
     return torch.from_numpy((weights / weights.mean()).astype(np.float32))
 
 
+def _role_weights(targets: Tensor, power: float) -> Tensor:
+    """Weights (R,) of the roles, frequent ones lower; the mean over all points is 1."""
+    count = torch.bincount(targets.flatten(), minlength=len(read_roles().roles)).double()
+    weights = torch.where(count > 0, count.clamp_min(1) ** -power, 0.0)
+    return (weights * count.sum() / (weights * count).sum()).float()
+
+
 def _descend(
     layers: _Layers,
     data: tuple[Tensor, Tensor, Tensor],
@@ -98,6 +105,7 @@ def _descend(
     pace = torch.optim.lr_scheduler.OneCycleLR(
         optimiser, settings.learning_rate, total_steps=steps * settings.epochs
     )
+    balance = _role_weights(targets, settings.balance)
     layers.train()
     for epoch in range(settings.epochs):
         total, order = 0.0, torch.from_numpy(draw.permutation(len(inputs)))
@@ -108,6 +116,7 @@ def _descend(
             losses = nn.functional.cross_entropy(
                 logits.flatten(0, 1),
                 targets[rows].flatten(),
+                weight=balance,
                 reduction="none",
                 label_smoothing=settings.label_smoothing,
             )

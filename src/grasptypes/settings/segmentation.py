@@ -43,6 +43,7 @@ class RoleTrainingSettings(Settings):
     weight_decay: float = setting("of AdamW", ge=0, le=10)
     dropout: float = setting("share of units that are left out of a step", ge=0, lt=1)
     noise: float = setting("added to descriptors, in standard deviations", ge=0, le=5)
+    balance: float = setting("power of a role's frequency by which it counts less", ge=0, le=1)
     label_smoothing: float = setting("share of a label that goes to all other roles", ge=0, lt=1)
     folds: int = setting("groups of families that are held out in turn", ge=2, le=20)
 
