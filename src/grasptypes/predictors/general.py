@@ -194,8 +194,8 @@ def probabilities(logits: tuple[np.ndarray, np.ndarray]) -> tuple[np.ndarray, np
     return expit(logits[0]), softmax(logits[1], axis=1)
 
 
-def calibrated(head: GeneralHead, logits: np.ndarray, occurs: np.ndarray) -> GeneralHead:
-    """The head with the temperature that suits labels it has not learned from.
+def temperature(logits: np.ndarray, occurs: np.ndarray) -> float:
+    """The number by which logits must be divided to suit labels that were not learned from.
 
     Args:
         logits: (N, types) of the first output, of heads that have not seen these objects.
@@ -207,4 +207,4 @@ def calibrated(head: GeneralHead, logits: np.ndarray, occurs: np.ndarray) -> Gen
         return float(np.mean(np.logaddexp(0, scaled) - occurs * scaled))
 
     found = minimize_scalar(loss, bounds=np.log(TEMPERATURES), method="bounded")
-    return replace(head, temperature=float(np.exp(found.x)))
+    return float(np.exp(found.x))

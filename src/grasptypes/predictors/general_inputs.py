@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import get_args
 
 import numpy as np
 import pandas as pd
@@ -13,7 +14,7 @@ from grasptypes.objects.object_files import Properties, read_properties
 from grasptypes.settings.roles import read_roles
 from grasptypes.settings.tasks import Grip, Task
 
-GRIPS = Grip.__args__
+GRIPS = get_args(Grip)
 SIZE = ("log_longest", "log_middle", "log_shortest")
 MASS = "log_mass"
 FACTS = (*SIZE, MASS)

@@ -22,16 +22,17 @@ def ground(size_px: int, settings: GroundDraws, random: np.random.Generator) -> 
         (settings.pattern, _pattern),
     ):
         if kind < share:
-            return np.clip(mixed(size_px, (first, second), settings, random), 0, 255)
+            levels = mixed(size_px, (first, second), settings, random)
+            return np.asarray(np.clip(levels, 0, 255), dtype=np.float32)
         kind -= share
-    return np.tile(first, (size_px, size_px, 1))
+    return np.asarray(np.tile(first, (size_px, size_px, 1)))
 
 
 def colour(random: np.random.Generator) -> np.ndarray:
     """A random colour (3,) float32: any level of grey, most of them pale."""
     grey = random.uniform(20, 250)
     tint = random.normal(0, 1, 3) * random.exponential(10)
-    return np.clip(grey + tint - tint.mean(), 0, 255).astype(np.float32)
+    return np.asarray(np.clip(grey + tint - tint.mean(), 0, 255), dtype=np.float32)
 
 
 Colours = tuple[np.ndarray, np.ndarray]
@@ -55,7 +56,7 @@ def _noise(
     common, *own = (natural_noise(size_px, exponent, random) for _ in range(4))
     varied = np.stack([(1 - CHROMA) * common + CHROMA * channel for channel in own], axis=-1)
     deviation = np.abs(colours[1] - colours[0]).mean() / 3 + 10
-    return colours[0] + deviation * varied
+    return np.asarray(colours[0] + deviation * varied)
 
 
 def _pattern(
