@@ -56,7 +56,7 @@ rule picture_scan:
     params:
         scan=lambda wildcards: scanned()[wildcards.object],
         mesh=lambda wildcards: hashes(scanned()[wildcards.object]),
-        count=config["general"]["protocol"]["test_views"],
+        views=config["general"]["protocol"]["test_views"],
         crease_deg=config["objects"]["resolution"]["crease_deg"],
         settings=config["objects"]["import"],
         camera=settings("renders", "views", "sheet"),

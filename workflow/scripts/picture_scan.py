@@ -33,7 +33,7 @@ if __name__ == "__main__":
         picture_scan(
             params.scan,
             snakemake.output.pictures,
-            params.count,
+            params.views,
             params.crease_deg,
             (ImportLimits.check(params.settings), CameraSettings.check(params.camera)),
         )

@@ -167,14 +167,14 @@ def _composed(
     whole = picture[..., :3] + behind * (1 - coverage)
     if random.random() < settings.hidden:
         size_px = len(picture)
-        cover = _cover_of(coverage[..., 0] > 0.5, settings, random)
+        cover = cover_of(coverage[..., 0] > 0.5, settings, random)
         before = np.tile(colour(random), (size_px, size_px, 1))
         before += random.uniform(0, 25) * natural_noise(size_px, 1.2, random)[..., None]
         whole = np.where(cover[..., None], before, whole)
     return np.asarray(whole, dtype=np.float32)
 
 
-def _cover_of(shown: np.ndarray, settings: LensDraws, random: np.random.Generator) -> np.ndarray:
+def cover_of(shown: np.ndarray, settings: LensDraws, random: np.random.Generator) -> np.ndarray:
     """Where an ellipse on the edge of the object is (size, size); nowhere if it hides too much.
 
     Args:
