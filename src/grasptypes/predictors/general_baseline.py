@@ -78,7 +78,8 @@ def _examples(
         for task in tasks
     ).reset_index(drop=True)
     pairs = pd.MultiIndex.from_frame(index[["object", "task"]])
-    labels = label_of.reindex(pairs).fillna(0).to_numpy(dtype=np.float32)
+    # A copy: torch needs arrays that may be written.
+    labels = np.array(label_of.reindex(pairs).fillna(0), dtype=np.float32)
     vectors = index["task"].to_numpy()[:, None] == np.array(tasks)
     return Examples(
         index,
