@@ -56,6 +56,7 @@ include: "workflow/rules/tracking.smk"
 include: "workflow/rules/kinds_common.smk"
 include: "workflow/rules/kinds.smk"
 include: "workflow/rules/segmentation.smk"
+include: "workflow/rules/general.smk"
 
 
 wildcard_constraints:
@@ -84,6 +85,8 @@ localrules:
     tabulate_robustness,
     summarise_scores,
     compare_kind_sizes,
+    count_kind_types,
+    tabulate_general,
     plot_folds,
     plot_losses,
 

@@ -11,6 +11,7 @@ from grasptypes.errors import InputError
 from grasptypes.settings.base import MisplacedError, Name, Settings, Unique, setting
 from grasptypes.settings.commands import PlanSettings, PredictSettings, TrackingSettings
 from grasptypes.settings.contact_maps import ContactMapSettings
+from grasptypes.settings.general import GeneralSettings
 from grasptypes.settings.grasp_types import GraspTypeSettings, PublishedSettings, ReplaySettings
 from grasptypes.settings.holds import HoldFitSettings
 from grasptypes.settings.kinds import KindSettings
@@ -78,6 +79,7 @@ class Params(Settings):
     predict: PredictSettings
     plan: PlanSettings
     tracking: TrackingSettings
+    general: GeneralSettings
 
     @property
     def colour_shifts(self) -> dict[str, int]:

@@ -1,0 +1,210 @@
+"""The predictor for unseen objects: a regularised linear head on features, size, mass and task.
+
+Two outputs per grasp type: whether it occurs at all (a logistic function), and its share of the
+grasps (a softmax). Without evidence both are the mean of all objects, since only the constant is
+not penalised.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+import torch
+from scipy.optimize import minimize_scalar
+from scipy.special import expit, softmax
+from sklearn.decomposition import PCA
+from torch import Tensor
+
+from grasptypes.predictors.general_inputs import FACTS
+from grasptypes.settings.general import HeadSettings
+
+# Among which the temperature is searched.
+TEMPERATURES = (0.2, 5.0)
+
+
+@dataclass(frozen=True)
+class Inputs:
+    """Rows to learn from or to answer, one per image and task.
+
+    Attributes:
+        features: (N, F) of the backbone.
+        classes: (N, C) log-probabilities of ImageNet's classes.
+        facts: (N, 4) of `general_inputs.FACTS`; NaN where unknown.
+        tasks: (N, K) coordinates of the task.
+    """
+
+    features: np.ndarray
+    classes: np.ndarray
+    facts: np.ndarray
+    tasks: np.ndarray
+
+    def __len__(self) -> int:
+        return len(self.features)
+
+    def rows(self, chosen: np.ndarray) -> Inputs:
+        """Some of the rows."""
+        return Inputs(*(array[chosen] for array in vars(self).values()))
+
+    def without(self, names: Sequence[str]) -> Inputs:
+        """The same rows, with some facts unknown."""
+        facts = self.facts.copy()
+        facts[:, [FACTS.index(name) for name in names]] = np.nan
+        return replace(self, facts=facts)
+
+
+@dataclass(frozen=True)
+class Targets:
+    """What is learned, one row per row of the inputs.
+
+    Attributes:
+        occurs: (N, types) 0 and 1.
+        shares: (N, types) frequencies, sum 1.
+        weights: (N,) of the rows.
+    """
+
+    occurs: np.ndarray
+    shares: np.ndarray
+    weights: np.ndarray
+
+
+@dataclass(frozen=True)
+class Projection:
+    """Leading principal directions of an array's columns, with equal variances."""
+
+    middle: np.ndarray
+    directions: np.ndarray
+
+    @classmethod
+    def of(cls, rows: np.ndarray, count: int, whitening: float) -> Projection:
+        """The `count` leading directions, whose variance to the power of `whitening` is removed."""
+        count = min(count, len(rows) - 1, rows.shape[1])
+        if count == 0:
+            return cls(rows.mean(axis=0), np.zeros((rows.shape[1], 0)))
+        found = PCA(count, svd_solver="randomized", random_state=0).fit(rows)
+        lengths = np.maximum(np.sqrt(found.explained_variance_), 1e-6)
+        scale = lengths**whitening * lengths[0] ** (1 - whitening)
+        return cls(found.mean_, found.components_.T / scale)
+
+    def __call__(self, rows: np.ndarray) -> np.ndarray:
+        return np.asarray((rows - self.middle) @ self.directions)
+
+
+@dataclass(frozen=True)
+class GeneralHead:
+    """A trained head.
+
+    Attributes:
+        features, classes: projections of the images' numbers.
+        facts: (2, 4) mean and standard deviation of size and mass.
+        weights: (D, 2 x types), rows of the design; the constant is last.
+        temperature: by which the logits of the first output are divided.
+    """
+
+    settings: HeadSettings
+    features: Projection
+    classes: Projection
+    facts: np.ndarray
+    weights: np.ndarray
+    temperature: float = 1.0
+
+    def logits(self, inputs: Inputs) -> tuple[np.ndarray, np.ndarray]:
+        """Logits (N, types) of the logistic output, and of the softmax."""
+        columns = design(inputs, self.settings, (self.features, self.classes), self.facts)
+        occurs, shares = np.split(columns @ self.weights, 2, axis=1)
+        return occurs / self.temperature, shares
+
+
+def design(
+    inputs: Inputs,
+    settings: HeadSettings,
+    projections: tuple[Projection, Projection],
+    facts: np.ndarray,
+) -> np.ndarray:
+    """The head's linear inputs (N, D): all about the object, times the task and 1; 1 comes last."""
+    columns = [
+        settings.picture_scale * projections[0](inputs.features),
+        settings.class_scale * projections[1](inputs.classes),
+    ]
+    if settings.facts:
+        columns.append(settings.fact_scale * _fact_columns((inputs.facts - facts[0]) / facts[1]))
+    about = np.hstack([*columns, np.ones((len(inputs), 1))])
+    factors = np.hstack([settings.task_scale * inputs.tasks, np.ones((len(inputs), 1))])
+    # The last column is 1 x 1, the constant.
+    return np.asarray((factors[:, :, None] * about[:, None, :]).reshape(len(inputs), -1))
+
+
+def _fact_columns(scaled: np.ndarray) -> np.ndarray:
+    """Size and mass, their squares and products, and whether each is known: zeros if it is not."""
+    known = np.isfinite(scaled).astype(float)
+    values = np.nan_to_num(scaled)
+    products = [values[:, i] * values[:, j] for i in range(4) for j in range(i, 4)]
+    # Products have a mean where both are known, which must not be mistaken for evidence.
+    return np.column_stack([values, *products, known[:, [0, 3]] - 0.5])
+
+
+def fit_head(inputs: Inputs, targets: Targets, settings: HeadSettings) -> GeneralHead:
+    """Train a head; what is unknown at times is dropped from copies of the rows."""
+    projections = (
+        Projection.of(inputs.features, settings.pictures, settings.whitening),
+        Projection.of(inputs.classes, settings.classes, settings.whitening),
+    )
+    scale = np.stack([np.nanmean(inputs.facts, axis=0), np.nanstd(inputs.facts, axis=0)])
+    copies = (
+        [inputs, inputs.without(FACTS[3:]), inputs.without(FACTS)] if settings.facts else [inputs]
+    )
+    columns = np.vstack([design(copy, settings, projections, scale) for copy in copies])
+    repeated = Targets(*(np.concatenate([array] * len(copies)) for array in vars(targets).values()))
+    weights = _descend(columns, repeated, settings.weight_decay)
+    return GeneralHead(settings, *projections, scale, weights)
+
+
+def _descend(columns: np.ndarray, targets: Targets, weight_decay: float) -> np.ndarray:
+    """The weights (D, 2 x types) with the least loss; the problem is convex, so there is one."""
+    x = torch.from_numpy(columns.astype(np.float32))
+    occurs, shares = (
+        torch.from_numpy(array.astype(np.float32)) for array in (targets.occurs, targets.shares)
+    )
+    share = torch.from_numpy((targets.weights / targets.weights.sum()).astype(np.float32))
+    types = occurs.shape[1]
+    weights = torch.zeros(x.shape[1], 2 * types, requires_grad=True)
+    search = torch.optim.LBFGS(
+        [weights], max_iter=200, history_size=20, tolerance_grad=1e-6, line_search_fn="strong_wolfe"
+    )
+
+    def loss() -> Tensor:
+        search.zero_grad()
+        first, second = torch.split(x @ weights, types, dim=1)
+        binary = torch.nn.functional.binary_cross_entropy_with_logits(
+            first, occurs, reduction="none"
+        )
+        cross = -(shares * torch.log_softmax(second, dim=1)).sum(dim=1)
+        fitted = (share * (binary.sum(dim=1) + cross)).sum()
+        total = fitted + weight_decay * (weights[:-1] ** 2).sum()
+        total.backward()
+        return total
+
+    search.step(loss)
+    return weights.detach().numpy()
+
+
+def probabilities(logits: tuple[np.ndarray, np.ndarray]) -> tuple[np.ndarray, np.ndarray]:
+    """How likely each type occurs (N, types), and its share of the grasps (N, types)."""
+    return expit(logits[0]), softmax(logits[1], axis=1)
+
+
+def temperature(logits: np.ndarray, occurs: np.ndarray) -> float:
+    """The number by which logits must be divided to suit labels that were not learned from.
+
+    Args:
+        logits: (N, types) of the first output, of heads that have not seen these objects.
+        occurs: (N, types) 0 and 1.
+    """
+
+    def loss(log_temperature: float) -> float:
+        scaled = logits * np.exp(-log_temperature)
+        return float(np.mean(np.logaddexp(0, scaled) - occurs * scaled))
+
+    found = minimize_scalar(loss, bounds=np.log(TEMPERATURES), method="bounded")
+    return float(np.exp(found.x))

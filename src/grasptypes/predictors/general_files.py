@@ -1,0 +1,47 @@
+"""Files of the predictor for unseen objects: images in numbers, and what is known of objects."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+
+from grasptypes.errors import InputError
+from grasptypes.files import read_npz, write_npz
+from grasptypes.kinds.library import read_kind
+from grasptypes.kinds.names import shape_of
+from grasptypes.predictors.general_inputs import Pictures
+
+
+def write_pictures(path: str | Path, pictures: Pictures) -> None:
+    """Write images in numbers."""
+    arrays = {name: np.asarray(array) for name, array in vars(pictures).items()}
+    write_npz(path, arrays | {"objects": pictures.objects.astype(np.str_)})
+
+
+def read_pictures_of(path: str | Path) -> Pictures:
+    """Read what :func:`write_pictures` wrote; raises InputError if an array is missing."""
+    arrays = read_npz(path)
+    try:
+        return Pictures(arrays["objects"], arrays["features"], arrays["classes"])
+    except KeyError as error:
+        raise InputError(path, str(error.args[0]), "this array is missing") from error
+
+
+def kind_families(shapes: Iterable[str]) -> dict[str, frozenset[str]]:
+    """The family of each shape of a kind."""
+    return {name: frozenset([read_kind(shape_of(name)[0]).family]) for name in shapes}
+
+
+def object_families(
+    objects: Sequence[str], families: Mapping[str, Sequence[str]]
+) -> dict[str, frozenset[str]]:
+    """The families of each object; one that has none is a family of its own."""
+    return {name: frozenset(families.get(name, [name])) for name in objects}
+
+
+def labelled(samples: pd.DataFrame, names: Iterable[str]) -> pd.DataFrame:
+    """The samples of some objects."""
+    return samples[samples["object"].isin(list(names))].reset_index(drop=True)

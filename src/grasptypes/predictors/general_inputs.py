@@ -1,0 +1,114 @@
+"""What the predictor for unseen objects is told: images, size, mass and task, each in numbers."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import get_args
+
+import numpy as np
+import pandas as pd
+
+from grasptypes.objects.object_files import Properties, read_properties
+from grasptypes.settings.roles import read_roles
+from grasptypes.settings.tasks import Grip, Task
+
+GRIPS = get_args(Grip)
+SIZE = ("log_longest", "log_middle", "log_shortest")
+MASS = "log_mass"
+FACTS = (*SIZE, MASS)
+
+
+@dataclass(frozen=True)
+class Pictures:
+    """Images of any number of objects, as the backbone sees them.
+
+    Attributes:
+        objects: (N,) name of the object in each image.
+        features: (N, F) of the backbone.
+        classes: (N, 1000) log-probabilities of ImageNet's classes.
+    """
+
+    objects: np.ndarray
+    features: np.ndarray
+    classes: np.ndarray
+
+    def of(self, names: Iterable[str]) -> Pictures:
+        """The images of some objects."""
+        return self.rows(np.isin(self.objects, list(names)))
+
+    def rows(self, chosen: np.ndarray) -> Pictures:
+        """Some of the images, by places or truth values."""
+        return Pictures(self.objects[chosen], self.features[chosen], self.classes[chosen])
+
+
+def joined(parts: Sequence[Pictures]) -> Pictures:
+    """The images of several groups of objects."""
+    return Pictures(
+        np.concatenate([part.objects for part in parts]),
+        np.concatenate([part.features for part in parts]),
+        np.concatenate([part.classes for part in parts]),
+    )
+
+
+def object_facts(paths: Iterable[str | Path]) -> pd.DataFrame:
+    """Size and mass of prepared objects: a row per object, the columns of :data:`FACTS`.
+
+    Args:
+        paths: files of properties.
+    """
+    known = [read_properties(path) for path in paths]
+    rows = {one.object: facts_of(one) for one in known}
+    return pd.DataFrame.from_dict(rows, orient="index", columns=list(FACTS))
+
+
+def facts_of(known: Properties) -> list[float]:
+    """The logarithms of the three extents, largest first (m), and of the mass (kg)."""
+    low, high = np.array(known.bounds_m)
+    return [*np.log(np.sort(high - low)[::-1]), float(np.log(known.mass_kg))]
+
+
+def task_vector(task: Task) -> np.ndarray:
+    """What a task demands of roles and hands: (D,), each number between about 0 and 1.
+
+    How likely people touch each role, which roles stay free, the factor on hazards, where along a
+    handle they hold it, and the factors on grips.
+    """
+    roles = list(read_roles().roles)
+    return np.array(
+        [task.touched.get(role, 0.0) for role in roles]
+        + [float(role in task.free) for role in roles]
+        + [task.hazard, *task.position]
+        + [task.grips.get(grip, 1.0) for grip in GRIPS],
+        dtype=np.float64,
+    )
+
+
+@dataclass(frozen=True)
+class TaskCode:
+    """Coordinates of tasks in the directions in which those learned from differ.
+
+    A new task is described by how far it lies in these directions, so a model with these inputs
+    answers for tasks that it has not learned.
+
+    Attributes:
+        middle: (D,) mean of the vectors of the tasks learned from.
+        directions: (D, K), scaled so that coordinates have variance 1 over these tasks.
+    """
+
+    middle: np.ndarray
+    directions: np.ndarray
+
+    @classmethod
+    def of(cls, tasks: Mapping[str, Task]) -> TaskCode:
+        """The code in which these tasks differ; K is at most their number less one."""
+        vectors = np.stack([task_vector(task) for task in tasks.values()])
+        middle = vectors.mean(axis=0)
+        _, lengths, axes = np.linalg.svd(vectors - middle, full_matrices=False)
+        kept = lengths > 1e-6
+        return cls(middle, axes[kept].T / lengths[kept] * np.sqrt(len(vectors)))
+
+    def __call__(self, task: Task) -> np.ndarray:
+        """Coordinates (K,) of a task."""
+        return np.asarray((task_vector(task) - self.middle) @ self.directions)

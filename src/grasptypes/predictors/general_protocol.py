@@ -1,0 +1,199 @@
+"""Answers of the predictor for unseen objects, and of simpler ones, about objects held out."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import pandas as pd
+import pandera.pandas as pa
+from scipy.special import expit, logit
+
+from grasptypes.labels.samples import LABELS, TYPES
+from grasptypes.predictors.general import GeneralHead, fit_head, probabilities, temperature
+from grasptypes.predictors.general_examples import Known, asked, family_folds, frequencies
+from grasptypes.predictors.general_inputs import FACTS, Pictures, TaskCode
+from grasptypes.settings.general import HeadSettings
+from grasptypes.settings.tasks import Task
+
+OCCURS, DIRECTION, SHARES = (
+    tuple(f"{word}_{name}" for name in TYPES) for word in ("occurs", "direction", "share")
+)
+ALL_VIEWS = -1
+CONSTANT, SIZE_ONLY, TASK_VECTOR, IMAGE, WITH_SIZE, VIEWS, VIEWS_WITH_SIZE = ROWS = (
+    "constant",
+    "size_only",
+    "task_vector",
+    "general",
+    "general_size",
+    "general_views",
+    "general_views_size",
+)
+SIMULATED = "simulated"
+# Probabilities are kept this far from 0 and 1.
+LEAST = 1e-6
+KINDS, OBJECTS, SCANS_KNOWN, SCANS = COLUMNS = ("kinds", "objects", "scans_known", "scans")
+
+_SHARE = pa.Check.in_range(0, 1)
+ANSWER_SCHEMA = pa.DataFrameSchema(
+    {
+        "shown": pa.Column(str, pa.Check.isin(COLUMNS)),
+        "model": pa.Column(str, pa.Check.isin(ROWS)),
+        "labels": pa.Column(str, description="learned from"),
+        "object": pa.Column(str),
+        "task": pa.Column(str),
+        "view": pa.Column(int, pa.Check.ge(ALL_VIEWS), description="-1: mean of all views"),
+        **{name: pa.Column(float, _SHARE) for name in (*OCCURS, *DIRECTION, *SHARES)},
+    },
+    strict=True,
+    ordered=True,
+    unique=["shown", "model", "labels", "object", "task", "view"],
+)
+
+
+@dataclass(frozen=True)
+class Heads:
+    """What one training set gives: the head with all inputs, that without images, the constant.
+
+    Attributes:
+        constant: (2, types) mean of the labels, and of the frequencies.
+    """
+
+    code: TaskCode
+    whole: GeneralHead
+    size_only: GeneralHead
+    constant: np.ndarray
+
+    @classmethod
+    def of(cls, known: Known, settings: HeadSettings) -> Heads:
+        """Train on everything that is known."""
+        code = TaskCode.of(known.tasks)
+        inputs, targets = known.examples(code)
+        blind = settings.changed(pictures=0, classes=0)
+        means = known.samples[list(LABELS)].mean().to_numpy(), frequencies(known.samples).mean(0)
+        return cls(
+            code,
+            fit_head(inputs, targets, settings),
+            fit_head(inputs, targets, blind),
+            np.stack(means),
+        )
+
+
+def answers(
+    heads: Heads, shown: Pictures, facts: pd.DataFrame, tasks: Mapping[str, Task]
+) -> pd.DataFrame:
+    """Answers of all models about images of objects: a table of :data:`ANSWER_SCHEMA`, in part.
+
+    Args:
+        facts: of the objects; index object.
+        tasks: to ask for.
+    """
+    numbers = pd.Series(shown.objects).groupby(shown.objects).cumcount().to_numpy()
+    parts = []
+    for name, task in tasks.items():
+        inputs = asked(shown, facts, [task] * len(shown.objects), heads.code)
+        where = pd.DataFrame({"object": shown.objects, "task": name, "view": numbers})
+        constant = np.tile(heads.constant[:, None], (1, len(inputs), 1))
+        told = {
+            CONSTANT: (constant[0], constant[1]),
+            SIZE_ONLY: probabilities(heads.size_only.logits(inputs)),
+            IMAGE: probabilities(heads.whole.logits(inputs.without(FACTS))),
+            WITH_SIZE: probabilities(heads.whole.logits(inputs)),
+        }
+        parts += [answer_table(model, where, *told[model]) for model in told]
+    return pd.concat(parts, ignore_index=True)
+
+
+def answer_table(
+    model: str,
+    where: pd.DataFrame,
+    occurs: np.ndarray,
+    shares: np.ndarray,
+    direction: np.ndarray | None = None,
+) -> pd.DataFrame:
+    """One row per row of `where`.
+
+    Args:
+        direction: (N, types) compared with the set of types; default: `occurs`, normalised.
+    """
+    if direction is None:
+        direction = occurs / occurs.sum(axis=1, keepdims=True)
+    numbers = np.hstack([occurs, direction, shares])
+    columns = [*OCCURS, *DIRECTION, *SHARES]
+    table = pd.DataFrame(numbers, columns=columns, index=where.index)
+    return pd.concat([where.assign(model=model), table], axis=1)
+
+
+def temperatures(table: pd.DataFrame, samples: pd.DataFrame) -> dict[str, float]:
+    """The temperature of each head, by the names of its models.
+
+    Args:
+        table: of :func:`answers`, about objects that the heads had not seen.
+        samples: their labels.
+    """
+    labels = samples.set_index(["object", "task"])[list(LABELS)]
+    found: dict[str, float] = {}
+    for models in ((IMAGE, WITH_SIZE), (SIZE_ONLY,)):
+        rows = table[table["model"].isin(models)]
+        pairs = pd.MultiIndex.from_frame(rows[["object", "task"]])
+        known = pairs.isin(labels.index)
+        occurs = labels.loc[pairs[known]].to_numpy(dtype=float)
+        fitted = temperature(_logits(rows[known]), occurs)
+        found |= dict.fromkeys(models, fitted)
+    return found
+
+
+def finished(
+    table: pd.DataFrame, heat: Mapping[str, float], shown: str, labels: str
+) -> pd.DataFrame:
+    """Calibrated answers, those from all views of an object together among them.
+
+    Args:
+        table: of :func:`answers`.
+        heat: of :func:`temperatures`.
+        shown: name of the column.
+        labels: source of the labels learned from.
+
+    Returns:
+        a table of :data:`ANSWER_SCHEMA`.
+    """
+    calm = table.copy()
+    for model, value in heat.items():
+        rows = calm["model"] == model
+        occurs = expit(_logits(calm[rows]) / value)
+        calm.loc[rows, list(OCCURS)] = occurs
+        calm.loc[rows, list(DIRECTION)] = occurs / occurs.sum(axis=1, keepdims=True)
+    parts = [calm]
+    for model, together in ((IMAGE, VIEWS), (WITH_SIZE, VIEWS_WITH_SIZE)):
+        views = calm[calm["model"] == model].drop(columns=["model", "view"])
+        mean = views.groupby(["object", "task"], as_index=False).mean()
+        parts.append(mean.assign(model=together, view=ALL_VIEWS))
+    whole = pd.concat(parts, ignore_index=True).assign(shown=shown, labels=labels)
+    return whole[list(ANSWER_SCHEMA.columns)]
+
+
+def _logits(table: pd.DataFrame) -> np.ndarray:
+    chance = np.clip(table[list(OCCURS)].to_numpy(dtype=float), LEAST, 1 - LEAST)
+    return np.asarray(logit(chance))
+
+
+def hold_out_kinds(
+    known: Known, settings: HeadSettings, folds: int, seed: int
+) -> list[pd.DataFrame]:
+    """Answers about kinds whose families were held out, uncalibrated; a table per fold."""
+    found = []
+    for fold in family_folds(known.families, folds, seed):
+        test = known.only([name for name in known.facts.index if known.families[name] & fold])
+        heads = Heads.of(known.without(fold), settings)
+        found.append(answers(heads, test.pictures, test.facts, known.tasks))
+    return found
+
+
+def calibrated_folds(folds: Sequence[pd.DataFrame], samples: pd.DataFrame) -> pd.DataFrame:
+    """The answers about held-out kinds, each fold calibrated on the others."""
+    tables = []
+    for number, table in enumerate(folds):
+        others = pd.concat([*folds[:number], *folds[number + 1 :]])
+        tables.append(finished(table, temperatures(others, samples), KINDS, SIMULATED))
+    return pd.concat(tables, ignore_index=True)

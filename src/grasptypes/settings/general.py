@@ -1,0 +1,115 @@
+"""Section `general`: the predictor for unseen objects, and the images that it is trained on."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from pydantic import AfterValidator, Field
+
+from grasptypes.settings.base import Name, Pair, Settings, Share, Unique, setting
+
+
+def _upwards(values: tuple[float, float]) -> tuple[float, float]:
+    low, high = values
+    if low > high:
+        raise ValueError(f"{low:g} is above {high:g}: give the smaller one first")
+    return values
+
+
+Between = Annotated[Pair[float], AfterValidator(_upwards)]
+Positive = Annotated[Pair[Annotated[float, Field(gt=0, le=1000)]], AfterValidator(_upwards)]
+
+
+class ViewDraws(Settings):
+    """From where an image is taken."""
+
+    any_side: Share = setting("share of images from any side; the others are from above")
+    elevation_rad: Between = setting("of the camera above the object's xy plane, if from above")
+    roll_rad: float = setting("largest rotation of the camera about its axis, if from above", ge=0)
+    field_of_view_rad: Positive = setting("full angle of an image")
+    fill: Positive = setting("share of half the image that the object reaches")
+    shift: Share = setting("largest shift of the object, as a share of half the image")
+
+
+class LightDraws(Settings):
+    """Light and surfaces."""
+
+    strength: Positive = setting("factor on each light")
+    ambient: Positive = setting("ambient light, linear")
+    spread: float = setting("standard deviation of unit directions", ge=0, le=10)
+    colours: Share = setting("share of images in which the object has colours")
+    moved: Share = setting("largest share by which colours are moved towards random ones")
+    roughness: Positive = setting("factor on the roughness of materials")
+    shadow: Share = setting("share of images with a shadow on the ground")
+
+
+class GroundDraws(Settings):
+    """What is behind the object; the shares of grounds, the rest is plain."""
+
+    gradient: Share = setting("share of images with a gradient between two colours")
+    noise: Share = setting("share with noise whose spectrum falls as that of natural images")
+    pattern: Share = setting("share with wavy stripes or checks")
+    exponent: Positive = setting("with which the noise's amplitude falls with frequency")
+    periods: Positive = setting("number of stripes or checks across the image")
+
+
+class LensDraws(Settings):
+    """What happens to the light on its way to the file."""
+
+    hidden: Share = setting("share of images in which something covers a part of the object")
+    cover: Positive = setting("half axes of what covers, as a share of the image")
+    most_hidden: Share = setting("largest share of the object that is covered")
+    exposure: Positive = setting("factor on all levels")
+    contrast: Positive = setting("exponent of the tone curve")
+    white_balance: float = setting("standard deviation of the logarithm of each colour", ge=0, le=1)
+    blur_px: Between = setting("standard deviation of the blur")
+    noise: Between = setting("standard deviation of the noise, levels of 255")
+    jpeg_quality: Annotated[Pair[Annotated[int, Field(ge=1, le=95)]], AfterValidator(_upwards)] = (
+        setting("quality of the JPEG file")
+    )
+
+
+class ImageSettings(Settings):
+    """Randomised images of objects."""
+
+    views: int = setting("images of each object", ge=1, le=1000)
+    plain: Share = setting("share of images taken as in `renders`")
+    view: ViewDraws
+    light: LightDraws
+    ground: GroundDraws
+    lens: LensDraws
+
+
+class ProtocolSettings(Settings):
+    """How the predictor is tested."""
+
+    folds: int = setting("groups of kinds, each held out in turn", ge=2, le=100)
+    test_views: int = setting("images of each object that are tested", ge=1, le=1000)
+    least_grasps: int = setting("valid grasps that make a label", ge=1, le=1000)
+    bins: int = setting("bins of the expected calibration error", ge=2, le=100)
+    families: dict[Name, Annotated[Unique[Name], Field(min_length=1)]] = setting(
+        "families of kinds that each object of the paper is held out with"
+    )
+
+
+class HeadSettings(Settings):
+    """The linear head. Zero components leave an input out."""
+
+    pictures: int = setting("principal directions of the features", ge=0, le=4096)
+    classes: int = setting("principal directions of the classes' log-probabilities", ge=0, le=1000)
+    facts: bool = setting("whether size and mass are inputs")
+    whitening: Share = setting("0 leaves the directions' variances, 1 makes them equal")
+    picture_scale: float = setting("factor on the features", gt=0, le=100)
+    class_scale: float = setting("factor on the classes", gt=0, le=100)
+    fact_scale: float = setting("factor on size and mass", gt=0, le=100)
+    task_scale: float = setting("factor on the task", gt=0, le=100)
+    weight_decay: float = setting("of all weights but the constant", ge=0, le=100)
+
+
+class GeneralSettings(Settings):
+    """The predictor for unseen objects."""
+
+    images: ImageSettings
+    backbone: Literal["mobilenet_v2", "efficientnet_lite0"] = setting("network of the features")
+    head: HeadSettings
+    protocol: ProtocolSettings

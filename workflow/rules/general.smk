@@ -1,0 +1,161 @@
+# The predictor for unseen objects: `snakemake -j2 reports/table3.csv`
+# A separate target, since no other result needs it, and its labels, those of all kinds, take hours.
+GENERAL = PARAMS.general
+
+
+def random_pictures(*names):
+    """Archives of randomised images."""
+    return expand("data/general/pictures/{object}.zip", object=names)
+
+
+def shapes():
+    """All shapes of the kinds of the parameters."""
+    return [name for kind in kinds_of() for name in shape_names(kind, PARAMS.kinds.shapes)]
+
+
+def scanned():
+    """The scans of objects, if the user has any: name to file."""
+    return {Path(path).stem: path for path in REFERENCE_MESHES if Path(path).stem in OBJECTS}
+
+
+def pictures_of(wildcards):
+    """The archives of images of a group."""
+    return {
+        "kinds": lambda: random_pictures(*shapes()),
+        "objects": lambda: random_pictures(*OBJECTS),
+        "renders": lambda: expand(rules.render_object.output.pictures, object=OBJECTS),
+        "scans": lambda: expand(rules.picture_scan.output.pictures, object=scanned()),
+    }[wildcards.shown]()
+
+
+rule picture_randomly:
+    input:
+        visual=lambda wildcards: (
+            "data/objects/{object}/visual.glb"
+            if wildcards.object in OBJECTS
+            else rules.prepare_kind.output.visual
+        ),
+    output:
+        pictures="data/general/pictures/{object}.zip",
+    wildcard_constraints:
+        object="|".join([*OBJECTS, SHAPE_PATTERN]),
+    params:
+        settings=config["general"]["images"],
+        camera=settings("renders", "views", "sheet"),
+        seed=config["seed"],
+        code=script_hash("picture_randomly"),
+    message:
+        "Taking randomised pictures of {wildcards.object}"
+    script:
+        "../scripts/picture_randomly.py"
+
+
+rule picture_scan:
+    output:
+        pictures="data/general/scans/{object}.zip",
+    params:
+        scan=lambda wildcards: scanned()[wildcards.object],
+        mesh=lambda wildcards: hashes(scanned()[wildcards.object]),
+        views=config["general"]["protocol"]["test_views"],
+        crease_deg=config["objects"]["resolution"]["crease_deg"],
+        settings=config["objects"]["import"],
+        camera=settings("renders", "views", "sheet"),
+        code=script_hash("picture_scan"),
+    message:
+        "Taking pictures of the scan of {wildcards.object}"
+    script:
+        "../scripts/picture_scan.py"
+
+
+# One job for many objects: loading torch takes longer than the images of one.
+rule describe_pictures:
+    input:
+        pictures=pictures_of,
+    output:
+        features="data/general/features/{shown}.npz",
+    wildcard_constraints:
+        shown="kinds|objects|renders|scans",
+    params:
+        backbone=config["general"]["backbone"],
+        settings=config["backbone"],
+        batch=config["features"]["batch"],
+        weights=weights_choice(),
+        code=script_hash("describe_pictures"),
+    message:
+        "Describing pictures of {wildcards.shown}"
+    script:
+        "../scripts/describe_pictures.py"
+
+
+# Unlike data/kinds/samples.csv, without the pairs that nothing holds.
+rule count_kind_types:
+    input:
+        grasps=every_shape(rules.synthesize_kind_grasps.output.grasps),
+        grids=every_shape(rules.prepare_kind.output.distance_grid),
+    output:
+        samples="data/general/samples.csv",
+    params:
+        hand=hand_parameter(config["hand"]),
+        settings=settings("grasp_types", "fitted_on", "softness", "own_frames"),
+        least=config["general"]["protocol"]["least_grasps"],
+        code=script_hash("count_kind_types"),
+    message:
+        "Counting the grasp types of kinds"
+    script:
+        "../scripts/count_kind_types.py"
+
+
+rule test_general:
+    input:
+        kinds="data/general/features/kinds.npz",
+        objects="data/general/features/objects.npz",
+        renders="data/general/features/renders.npz",
+        scans=lambda wildcards: ["data/general/features/scans.npz"] if scanned() else [],
+        kind_samples=rules.count_kind_types.output.samples,
+        kind_properties=every_shape(rules.prepare_kind.output.properties),
+        simulated=SAMPLES["simulated"],
+        samples=[SAMPLES[labels] for labels in LABELS],
+        properties=expand("data/objects/{object}/properties.json", object=OBJECTS),
+    output:
+        answers="data/general/answers.parquet",
+    params:
+        settings=config["general"],
+        predictors=config["predictors"],
+        labels=LABELS,
+        tasks=TASKS,
+        seed=config["seed"],
+        code=script_hash("test_general"),
+    message:
+        "Testing the predictor for unseen objects"
+    script:
+        "../scripts/test_general.py"
+
+
+rule tabulate_general:
+    input:
+        answers=rules.test_general.output.answers,
+        samples=[SAMPLES[labels] for labels in LABELS],
+        kind_samples=rules.count_kind_types.output.samples,
+    output:
+        table=report(
+            "reports/table3.csv",
+            caption="../report/table3.rst",
+            category="Unseen objects",
+            labels={"subject": "Table III", "labels": "both", "kind": "table"},
+        ),
+        markdown="reports/table3.md",
+        figure=report(
+            "reports/figures/calibration.png",
+            caption="../report/table3.rst",
+            category="Unseen objects",
+            labels={"subject": "calibration", "labels": "both", "kind": "figure"},
+        ),
+    params:
+        labels=LABELS,
+        unfitted=[name for name in OBJECTS if name not in FITTED_ON],
+        bins=config["general"]["protocol"]["bins"],
+        code=script_hash("tabulate_general"),
+    message:
+        "Tabulating answers about unseen objects"
+    script:
+        "../scripts/tabulate_general.py"
