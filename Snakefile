@@ -83,6 +83,7 @@ localrules:
     tabulate_objects,
     tabulate_generalisation,
     tabulate_robustness,
+    tabulate_scan_plans,
     summarise_scores,
     compare_kind_sizes,
     count_kind_types,

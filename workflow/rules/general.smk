@@ -105,7 +105,7 @@ rule count_kind_types:
         "../scripts/count_kind_types.py"
 
 
-rule test_general:
+rule evaluate_general:
     input:
         kinds="data/general/features/kinds.npz",
         objects="data/general/features/objects.npz",
@@ -124,16 +124,16 @@ rule test_general:
         labels=LABELS,
         tasks=TASKS,
         seed=config["seed"],
-        code=script_hash("test_general"),
+        code=script_hash("evaluate_general"),
     message:
         "Testing the predictor for unseen objects"
     script:
-        "../scripts/test_general.py"
+        "../scripts/evaluate_general.py"
 
 
 rule tabulate_general:
     input:
-        answers=rules.test_general.output.answers,
+        answers=rules.evaluate_general.output.answers,
         samples=[SAMPLES[labels] for labels in LABELS],
         kind_samples=rules.count_kind_types.output.samples,
     output:

@@ -7,12 +7,12 @@ from grasptypes.contact_maps.contact_map import ContactMap, MapTask, map_contact
 from grasptypes.contact_maps.contact_map_files import write_contact_map
 from grasptypes.contact_maps.holds import object_holds
 from grasptypes.contact_maps.measured_contacts import map_measured_contacts, read_probability
-from grasptypes.contact_maps.part_holds import part_holds
 from grasptypes.errors import InputError
 from grasptypes.jobs import job
 from grasptypes.objects.object_geometry import ObjectGeometry, read_object
 from grasptypes.objects.units import UNITS_M
 from grasptypes.segmentation.known_parts import known_parts
+from grasptypes.segmentation.part_holds import part_holds
 from grasptypes.segmentation.parts import described
 from grasptypes.settings.contact_maps import ContactMapSettings
 from grasptypes.settings.segmentation import SegmentationSettings

@@ -11,10 +11,10 @@ import numpy as np
 
 from grasptypes.contact_maps.contact_map import ContactMap, MapTask, map_contacts
 from grasptypes.contact_maps.hold import Hold
-from grasptypes.contact_maps.part_holds import part_holds
 from grasptypes.objects.object_geometry import ObjectGeometry
 from grasptypes.renders.mesh_views import MESH_WORD
 from grasptypes.segmentation.known_parts import known_parts
+from grasptypes.segmentation.part_holds import part_holds
 from grasptypes.segmentation.parts import Parts
 from grasptypes.segmentation.role_files import RoleTable
 from grasptypes.settings.params import Params

@@ -20,7 +20,6 @@ from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 from grasptypes.contact_maps.contact_map import MapTask
-from grasptypes.contact_maps.part_holds import part_holds
 from grasptypes.hands import configuration
 from grasptypes.hands.hand import Hand
 from grasptypes.hands.reading import load_hand
@@ -31,6 +30,7 @@ from grasptypes.planning.plan_comparison import tests
 from grasptypes.planning.plan_contacts import PlanContacts, grips_of, hold_parts, plan_contacts
 from grasptypes.planning.sessions import PlanningContext, plan_sessions
 from grasptypes.segmentation.known_parts import known_parts
+from grasptypes.segmentation.part_holds import part_holds
 from grasptypes.settings.holds import TouchSettings
 from grasptypes.settings.roles import PartRole
 from grasptypes.settings.tasks import Task, read_tasks

@@ -11,7 +11,6 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import pandas as pd
 
 from grasptypes.contact_maps.contact_map import MapTask
-from grasptypes.contact_maps.part_holds import part_holds
 from grasptypes.errors import InputError
 from grasptypes.hands.hand import Hand
 from grasptypes.hands.reading import load_hand
@@ -29,6 +28,7 @@ from grasptypes.planning.plan_contacts import (
 from grasptypes.planning.sessions import PlanningContext, plan_sessions
 from grasptypes.renders.mesh_views import MESH_WORD
 from grasptypes.segmentation.known_parts import known_parts
+from grasptypes.segmentation.part_holds import part_holds
 from grasptypes.segmentation.parts import Parts, described
 from grasptypes.segmentation.role_files import RoleTable
 from grasptypes.settings.params import Params, checkout_params

@@ -23,12 +23,14 @@ class RoleNetwork:
 
     Attributes:
         roles: (R,) names of the outputs.
+        pooled: points of an object over which to pool, as many as in training.
         centre, scale: (D,) of the descriptors.
         weights, biases: of the four layers, (inputs, outputs) and (outputs,); two before the
             pooling, two after it.
     """
 
     roles: tuple[str, ...]
+    pooled: int
     centre: NDArray[np.float32]
     scale: NDArray[np.float32]
     weights: tuple[NDArray[np.float32], ...]
@@ -38,11 +40,14 @@ class RoleNetwork:
     LIMIT: ClassVar[float] = 5.0
 
     def probabilities(self, descriptors: NDArray[np.float32]) -> NDArray[np.float64]:
-        """Probabilities (N, R) of the roles of points with descriptors (N, D), all of one
-        object."""
+        """Probabilities (N, R) of the roles of points with descriptors (N, D), all of one object.
+
+        The points are in random order: the first ones stand for all of them.
+        """
         scaled = np.clip((descriptors - self.centre) / self.scale, -self.LIMIT, self.LIMIT)
         points = self._layer(1, self._layer(0, scaled))
-        pooled = np.concatenate([points.mean(axis=0), points.max(axis=0)])
+        some = points[: self.pooled]
+        pooled = np.concatenate([some.mean(axis=0), some.max(axis=0)])
         context = np.concatenate(
             [points, np.broadcast_to(pooled, (len(points), len(pooled)))], axis=1
         )
@@ -57,6 +62,7 @@ class RoleNetwork:
         """Write the network; half precision changes no probability by more than 0.01."""
         arrays = {
             "roles": np.array(self.roles, dtype=np.str_),
+            "pooled": np.array(self.pooled),
             "centre": self.centre,
             "scale": self.scale,
         }
@@ -73,12 +79,17 @@ def read_network(path: str | Path) -> RoleNetwork:
     """
     arrays = read_npz(path)
     keys = [f"{name}_{number}" for name in ("weights", "biases") for number in range(4)]
-    if missing := {"roles", "centre", "scale", *keys} - set(arrays):
+    if missing := {"roles", "pooled", "centre", "scale", *keys} - set(arrays):
         raise InputError(path, ", ".join(sorted(missing)), "missing from the network")
     layers = [arrays[key].astype(np.float32) for key in keys]
     roles = tuple(str(role) for role in arrays["roles"])
     return RoleNetwork(
-        roles, arrays["centre"], arrays["scale"], tuple(layers[:4]), tuple(layers[4:])
+        roles,
+        int(arrays["pooled"]),
+        arrays["centre"],
+        arrays["scale"],
+        tuple(layers[:4]),
+        tuple(layers[4:]),
     )
 
 

@@ -68,6 +68,7 @@ def train_network(
     tensors = [layer for layer in layers.layers if isinstance(layer, nn.Linear)]
     return RoleNetwork(
         roles,
+        inputs.shape[1],
         centre,
         scale,
         tuple(layer.weight.detach().numpy().T.copy() for layer in tensors),

@@ -10,8 +10,8 @@ from tests.unit.contact_maps.shapes import mallet
 from tests.unit.settings import PARAMS
 
 from grasptypes.contact_maps.contact_map import MapTask
-from grasptypes.contact_maps.part_holds import part_holds
 from grasptypes.contact_maps.placement import SurfacePoints
+from grasptypes.segmentation.part_holds import part_holds
 from grasptypes.segmentation.parts import Parts
 from grasptypes.settings.tasks import read_tasks
 
