@@ -11,6 +11,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import trimesh
 
 pytest.importorskip("selenium", reason="no selenium: pip install -e .[dev]")
 from browser import browser, foreign_hosts, missing_programs, wait_for
@@ -18,6 +19,7 @@ from PIL import Image
 from selenium.webdriver import Chrome
 from tests.unit.viewer_data import HAND, write_dataset
 
+from grasptypes.__main__ import main
 from grasptypes.files import write_text
 from grasptypes.viewer.grasp_views import dataset_views
 from grasptypes.viewer.page import page
@@ -91,6 +93,26 @@ def test_the_page_opens_from_a_file(chromium: Chrome, dataset: Path, tmp_path: P
     write_text(tmp_path / "grasps.html", page(dataset_views(dataset, HAND)))
     chromium.get((tmp_path / "grasps.html").as_uri())
     check_page(chromium, tmp_path)
+
+
+def test_an_inspected_mesh_shows_parts_and_contact_maps(chromium: Chrome, tmp_path: Path) -> None:
+    mesh, table = tmp_path / "cup.stl", tmp_path / "roles.csv"
+    trimesh.creation.annulus(0.035, 0.04, 0.1).export(mesh)
+    table.write_text("part,role\nbody,container_wall\n")
+    main(["inspect", str(mesh), "--roles", str(table), "--page", str(tmp_path / "cup.html")])
+    chromium.get((tmp_path / "cup.html").as_uri())
+    assert wait_for(chromium, SHOWN) == "cup use"
+    parts = picture(chromium)
+    assert (np.abs(parts - parts[2, 2]).sum(axis=2) > 30).mean() > 0.03, "the canvas is blank"
+    assert "body (container_wall)" in chromium.find_element("id", "legend").text
+    assert not chromium.find_element("id", "play").is_displayed()
+    chromium.execute_script(CHOOSE, "colours", "contact map")
+    used = picture(chromium)
+    assert np.abs(used - parts).max() > 60
+    chromium.execute_script(CHOOSE, "task", "handoff")
+    assert wait_for(chromium, f"{SHOWN} === 'cup handoff'")
+    assert np.abs(picture(chromium) - used).max() > 10
+    assert errors(chromium) == []
 
 
 def test_the_command_serves_it_on_this_machine(
