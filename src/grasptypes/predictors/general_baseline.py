@@ -80,13 +80,15 @@ def _examples(
     pairs = pd.MultiIndex.from_frame(index[["object", "task"]])
     # A copy: torch needs arrays that may be written.
     labels = np.array(label_of.reindex(pairs).fillna(0), dtype=np.float32)
+    sets = labels / np.maximum(labels.sum(axis=1, keepdims=True), 1)
     vectors = index["task"].to_numpy()[:, None] == np.array(tasks)
     return Examples(
         index,
         np.tile(features.astype(np.float32), (len(tasks), 1)),
         vectors.astype(np.float32),
         labels,
-        labels / np.maximum(labels.sum(axis=1, keepdims=True), 1),
+        sets,
+        sets,  # only sets are learnt and compared here
     )
 
 
