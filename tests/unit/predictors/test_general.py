@@ -69,7 +69,7 @@ def test_heads_learn_what_size_tells(known, answers):
 def test_without_evidence_the_answer_is_the_mean(known):
     code = TaskCode.of(TASKS)
     inputs, targets = known.examples(code)
-    head = fit_head(inputs, targets, HEAD.changed(weight_decay=100.0))
+    head = fit_head(inputs, targets, HEAD.changed(weight_decay=10_000.0))
     occurs, shares = probabilities(head.logits(inputs))
     np.testing.assert_allclose(occurs, np.tile(targets.occurs.mean(0), (len(inputs), 1)), atol=0.02)
     np.testing.assert_allclose(shares, np.tile(targets.shares.mean(0), (len(inputs), 1)), atol=0.02)
