@@ -44,8 +44,8 @@ rule evaluate_roles:
     input:
         samples=kind_samples,
     output:
-        kinds="reports/segmentation/kinds.csv",
-        roles="reports/segmentation/roles.csv",
+        kinds="reports/kind_roles.csv",
+        roles="reports/role_recognition.csv",
     params:
         settings=settings("segmentation"),
         seed=config["seed"],
@@ -61,7 +61,7 @@ rule evaluate_roles_on_scans:
     input:
         network=rules.train_role_network.output.network,
     output:
-        table="reports/segmentation/scans.csv",
+        table="reports/scan_roles.csv",
     params:
         settings=settings("segmentation"),
         scale=config["objects"]["scale"],
@@ -99,8 +99,8 @@ rule tabulate_scan_plans:
     input:
         tables=expand(rules.plan_scan.output.table, scan=SCANS),
     output:
-        table="reports/segmentation/plans.csv",
-        summary="reports/segmentation/plan_gains.csv",
+        table="reports/part_plans.csv",
+        summary="reports/part_plan_gains.csv",
     params:
         code=script_hash("tabulate_scan_plans"),
     message:
@@ -112,8 +112,8 @@ rule tabulate_scan_plans:
 # Twenty objects that none of the kinds was measured on. GRASPTYPES_YCB names a checkout of elpis-lab/YCB_Dataset.
 rule inspect_ycb:
     output:
-        table="reports/segmentation/ycb.csv",
-        sheet="reports/segmentation/ycb.png",
+        table="reports/ycb_parts.csv",
+        sheet="reports/ycb_parts.png",
     params:
         folder=real_objects(os.environ)["ycb"],
         names=[
