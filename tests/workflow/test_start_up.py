@@ -16,9 +16,8 @@ OBJECT = "data/objects/mug/visual.glb"
 def test_the_main_job_is_complete_and_small(fresh: Repository) -> None:
     planned = fresh.planned(TARGET)
     assert planned["prepare_object"] == 2
-    assert (
-        planned["map_contacts"] == planned["synthesize_grasps"] == planned["train_predictor"] == 4
-    )
+    assert planned["map_contacts"] == planned["synthesize_grasps"] == 4
+    assert planned["train_predictor"] == 5
     assert planned["publish_runs"] == 0
 
 

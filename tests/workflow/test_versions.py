@@ -34,7 +34,7 @@ def test_a_clone_that_pulls_has_nothing_to_do_and_notices_changes(
     assert checksums(clone.path) == checksums(changed.path)
     clone.set_param("predictors.epochs", 7)
     planned = clone.planned(TARGET)
-    assert planned["train_predictor"] == 4
+    assert planned["train_predictor"] == 5
     assert planned["extract_features"] == 0
     clone.set_param("predictors.epochs", 6)
     assert clone.lose("data/renders").snakemake_is_clean()
@@ -42,7 +42,7 @@ def test_a_clone_that_pulls_has_nothing_to_do_and_notices_changes(
 
 def test_versions_come_and_go_with_git_and_metrics_are_compared(changed: Repository) -> None:
     changed.set_param("predictors.epochs", 7)
-    assert jobs(changed.dvc("repro"))["train_predictor"] == 8
+    assert jobs(changed.dvc("repro"))["train_predictor"] == 10
     assert changed.snakemake_is_clean("all")
     changed.commit("Longer")
     compared = changed.dvc("metrics", "diff", "HEAD~1", "HEAD")

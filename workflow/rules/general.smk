@@ -3,31 +3,6 @@
 GENERAL = PARAMS.general
 
 
-def random_pictures(*names):
-    """Archives of randomised images."""
-    return expand("data/general/pictures/{object}.zip", object=names)
-
-
-def shapes():
-    """All shapes of the kinds of the parameters."""
-    return [name for kind in kinds_of() for name in shape_names(kind, PARAMS.kinds.shapes)]
-
-
-def scanned():
-    """The scans of objects, if the user has any: name to file."""
-    return {Path(path).stem: path for path in REFERENCE_MESHES if Path(path).stem in OBJECTS}
-
-
-def pictures_of(wildcards):
-    """The archives of images of a group."""
-    return {
-        "kinds": lambda: random_pictures(*shapes()),
-        "objects": lambda: random_pictures(*OBJECTS),
-        "renders": lambda: expand(rules.render_object.output.pictures, object=OBJECTS),
-        "scans": lambda: expand(rules.picture_scan.output.pictures, object=scanned()),
-    }[wildcards.shown]()
-
-
 rule picture_randomly:
     input:
         visual=lambda wildcards: (

@@ -53,3 +53,34 @@ def kind_sheets(wildcards):
     """The contact sheets of all groups with chosen kinds."""
     groups = {kind_names()[kind]: None for kind in kinds_of()}
     return expand(rules.plot_kinds.output.sheet, group=groups)
+
+
+def kind_samples(wildcards):
+    """The samples of all groups with chosen kinds."""
+    groups = {kind_names()[kind]: None for kind in kinds_of()}
+    return expand(rules.sample_kinds.output.samples, group=groups)
+
+
+def random_pictures(*names):
+    """Archives of randomised images."""
+    return expand("data/general/pictures/{object}.zip", object=names)
+
+
+def shapes():
+    """All shapes of the kinds of the parameters."""
+    return [name for kind in kinds_of() for name in shape_names(kind, PARAMS.kinds.shapes)]
+
+
+def scanned():
+    """The scans of objects, if the user has any: name to file."""
+    return {Path(path).stem: path for path in REFERENCE_MESHES if Path(path).stem in OBJECTS}
+
+
+def pictures_of(wildcards):
+    """The archives of images of a group."""
+    return {
+        "kinds": lambda: random_pictures(*shapes()),
+        "objects": lambda: random_pictures(*OBJECTS),
+        "renders": lambda: expand(rules.render_object.output.pictures, object=OBJECTS),
+        "scans": lambda: expand(rules.picture_scan.output.pictures, object=scanned()),
+    }[wildcards.shown]()

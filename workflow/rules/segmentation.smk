@@ -19,12 +19,6 @@ rule sample_kinds:
         "../scripts/sample_kinds.py"
 
 
-def kind_samples(wildcards):
-    """The samples of all groups with chosen kinds."""
-    groups = {kind_names()[kind]: None for kind in kinds_of()}
-    return expand(rules.sample_kinds.output.samples, group=groups)
-
-
 rule train_role_network:
     input:
         samples=kind_samples,

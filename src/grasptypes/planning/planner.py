@@ -19,7 +19,6 @@ from grasptypes.labels.grasp_type import GRASP_TYPES
 from grasptypes.objects.object_geometry import ObjectGeometry
 from grasptypes.planning.plan_contacts import (
     MeasuredMap,
-    PlanContacts,
     grips_of,
     hold_parts,
     missing_types,
@@ -151,13 +150,16 @@ class Planner:
         settings = self.params.contact_maps.changed(sessions=sessions or self.params.plan.sessions)
         name, seed_number = (MESH_WORD, task), self.params.seed
         drawn = MapTask.of_object(object, name, seed_number, settings)
-        grips, parts = grips_of(request.types), None
-        contacts = None
+        grips, parts, contacts = grips_of(request.types), None, None
         if contact_map is None:
             parts = known_parts(object, drawn.points, self.params.segmentation, roles)
-            contacts = self._hold_parts(object, drawn, parts, grips)
-        if contacts is None:
-            contacts = plan_contacts(drawn, contact_map, grips, source)
+            contacts = hold_parts(*part_holds(drawn, object, parts, read_tasks()[task]), grips)
+        held = contacts is not None
+        contacts = contacts or plan_contacts(drawn, contact_map, grips, source)
+        if parts:
+            self.tell(f"parts by {parts.basis}: {described(parts)}")
+            if not held:
+                self.tell(f"people hold none of these parts for {task}: every place is as good")
         if left_out := settings.sessions - len(contacts.numbers):
             self.tell(
                 f"skipped {left_out} of {settings.sessions} ways of holding: "
@@ -168,17 +170,6 @@ class Planner:
         attempts, ranking = plan_sessions(context, contacts, request.types, self.jobs, self.tell)
         used = contact_map.path.name if contact_map else None
         return Plan(object, task, request, self.hand, self.params, used, parts, attempts, ranking)
-
-    def _hold_parts(
-        self, geometry: ObjectGeometry, drawn: MapTask, parts: Parts, grips: Sequence[str]
-    ) -> PlanContacts | None:
-        """Where people hold these parts; None, and a message, if there is nothing to hold."""
-        task = drawn.name[1]
-        self.tell(f"parts by {parts.basis}: {described(parts)}")
-        contacts = hold_parts(*part_holds(drawn, geometry, parts, read_tasks()[task]), grips)
-        if contacts is None:
-            self.tell(f"people hold none of these parts for {task}: every place is as good as any")
-        return contacts
 
     def check_request(
         self, task: str, types: Sequence[str], mass_kg: float | None, source: str = ""
