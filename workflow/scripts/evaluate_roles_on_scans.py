@@ -10,7 +10,7 @@ from grasptypes.jobs import job
 from grasptypes.kinds.catalogue import build
 from grasptypes.objects.preparation import part_surface, scaled_parts
 from grasptypes.segmentation.evaluation import SCAN_SCHEMA, scan_row, transferred_roles
-from grasptypes.segmentation.network import read_network
+from grasptypes.segmentation.network import RoleNetwork, read_network
 from grasptypes.segmentation.parts import find_parts
 from grasptypes.segmentation.samples import sample_evenly
 from grasptypes.settings.objects import Resolution
@@ -19,7 +19,13 @@ from grasptypes.settings.segmentation import SegmentationSettings
 from grasptypes.tables import write_table
 
 
-def test_scan(path: Path, network, settings, scale: float, resolution: Resolution) -> dict:
+def recognise(
+    path: Path,
+    network: RoleNetwork,
+    settings: SegmentationSettings,
+    scale: float,
+    resolution: Resolution,
+) -> dict[str, object]:
     """The row of one scan."""
     mesh = trimesh.load_mesh(path, process=False).apply_scale(scale)
     points_m, face = sample_evenly(mesh, settings.descriptors.points, path.stem)
@@ -40,7 +46,7 @@ if __name__ == "__main__":
         network = read_network(snakemake.input.network)
         resolution = Resolution.check(params.resolution)
         rows = [
-            test_scan(Path(path), network, settings, params.scale, resolution)
+            recognise(Path(path), network, settings, params.scale, resolution)
             for path in params.scans
         ]
         write_table(pd.DataFrame(rows), snakemake.output.table, SCAN_SCHEMA)

@@ -67,7 +67,7 @@ def run(args: argparse.Namespace) -> str:
     from grasptypes.objects.loading import load_object
     from grasptypes.planning.plan_contacts import MeasuredMap
     from grasptypes.planning.plan_summary import report, summarise
-    from grasptypes.planning.planner import Planner
+    from grasptypes.planning.planner import Planner, check_guidance
     from grasptypes.segmentation.role_files import read_role_table
 
     planner = Planner(args.folder, hand=args.hand, jobs=args.jobs, tell=_tell)
@@ -77,6 +77,7 @@ def run(args: argparse.Namespace) -> str:
     if scan:
         scan.read()
     roles = read_role_table(args.roles) if args.roles else None
+    check_guidance(scan, roles)
     geometry = load_object(
         args.object,
         args.unit,

@@ -131,8 +131,7 @@ def face_parts(
     """Part (F,) of each face of a surface: that of the nearest point (N,) that faces the same
     way."""
     corners = surface.vertices[surface.faces]
-    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    normals /= np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-30)
+    normals = _face_normals(corners)
     tree = cKDTree(np.hstack([points.points_m, NORMAL_M * points.normals]))
     return np.asarray(
         part_index[tree.query(np.hstack([corners.mean(axis=1), NORMAL_M * normals]))[1]]
@@ -149,8 +148,7 @@ def coloured_parts(
     for number, role in enumerate(role_of(parts).values()):
         corners = surface.vertices[surface.faces[of_face == number]]
         if len(corners):
-            normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-            normals /= np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-30)
+            normals = _face_normals(corners)
             triangles = np.arange(3 * len(corners)).reshape(-1, 3)
             colour = np.array(colours.get(role, GREY)[:3]) ** 2.2
             found.append(
@@ -164,3 +162,9 @@ def coloured_parts(
                 )
             )
     return found
+
+
+def _face_normals(corners: Array) -> Array:
+    """Unit normals (F, 3) of faces with corners (F, 3, 3); zero where a face has no area."""
+    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    return np.asarray(normals / np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-30))

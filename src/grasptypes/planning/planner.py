@@ -140,8 +140,9 @@ class Planner:
 
         Raises:
             InputError: an unknown task or type, a mass that the hand cannot lift, an unusable
-                contact map, or an object that no hand can hold.
+                contact map, roles beside a contact map, or an object that no hand can hold.
         """
+        check_guidance(contact_map, roles)
         source = object.source or object.name
         wanted = self.check_request(task, types, object.properties.mass_kg, source)
         request = GraspTypeRequest(wanted) if wanted else self._predicted(object, task)
@@ -159,7 +160,7 @@ class Planner:
         if parts:
             self.tell(f"parts by {parts.basis}: {described(parts)}")
             if not held:
-                self.tell(f"people hold none of these parts for {task}: every place is as good")
+                self.tell(f"people hold none of these for {task}: every place counts the same")
         if left_out := settings.sessions - len(contacts.numbers):
             self.tell(
                 f"skipped {left_out} of {settings.sessions} ways of holding: "
@@ -211,6 +212,17 @@ class Planner:
         answer = self._predictor.predict(geometry, task, name=name)
         described = self._predictor.describe([answer], task)
         return GraspTypeRequest(tuple(answer.grasp_types), described)
+
+
+def check_guidance(contact_map: MeasuredMap | None, roles: RoleTable | None) -> None:
+    """Reject a table of roles beside a contact map, which would leave it without effect.
+
+    Raises:
+        InputError: there are both.
+    """
+    if contact_map and roles:
+        message = "has no effect beside --contact-map, which says where to touch: give one of them"
+        raise InputError("--roles", str(roles.path), message)
 
 
 def known_type(text: str) -> str:

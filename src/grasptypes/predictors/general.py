@@ -174,6 +174,7 @@ def _descend(columns: np.ndarray, targets: Targets, weight_decay: float) -> np.n
     )
 
     def loss() -> Tensor:
+        """The loss at the present weights, with its gradient."""
         search.zero_grad()
         first, second = torch.split(x @ weights, types, dim=1)
         binary = torch.nn.functional.binary_cross_entropy_with_logits(
@@ -203,6 +204,7 @@ def temperature(logits: np.ndarray, occurs: np.ndarray) -> float:
     """
 
     def loss(log_temperature: float) -> float:
+        """Mean cross-entropy of the labels at a temperature."""
         scaled = logits * np.exp(-log_temperature)
         return float(np.mean(np.logaddexp(0, scaled) - occurs * scaled))
 

@@ -59,7 +59,7 @@ class RoleNetwork:
         return np.asarray(np.maximum(inputs @ self.weights[number] + self.biases[number], 0))
 
     def write(self, path: str | Path) -> None:
-        """Write the network; half precision changes no probability by more than 0.01."""
+        """Write the network, with weights in half precision."""
         arrays = {
             "roles": np.array(self.roles, dtype=np.str_),
             "pooled": np.array(self.pooled),

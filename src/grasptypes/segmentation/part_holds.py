@@ -63,7 +63,10 @@ def part_holds(
 
 
 def _without_crumbs(parts: Parts) -> Mapping[str, PartRole | None]:
-    """The roles without those of small parts beside a large one, unless they warn the hand."""
+    """The roles without those of small parts beside a large one.
+
+    Roles that somebody stated stay, and those that warn the hand.
+    """
     sizes = dict(
         zip(parts.roles, np.bincount(parts.part_index, minlength=len(parts.roles)), strict=True)
     )
@@ -73,7 +76,12 @@ def _without_crumbs(parts: Parts) -> Mapping[str, PartRole | None]:
             largest[part.role] = max(largest.get(part.role, 0), sizes[name])
     return {
         name: part
-        if part and (part.hazardous or sizes[name] >= MINOR_SHARE * largest[part.role])
+        if part
+        and (
+            parts.confidence[name] == 1
+            or part.hazardous
+            or sizes[name] >= MINOR_SHARE * largest[part.role]
+        )
         else None
         for name, part in parts.roles.items()
     }

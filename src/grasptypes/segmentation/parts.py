@@ -82,8 +82,9 @@ def find_parts(
     """
     network = network or trained_network()
     pointwise = network.probabilities(describe_surface(points_m, normals, settings))
-    probability = smoothed(pointwise, points_m, normals, settings)
-    index = _components(probability.argmax(axis=1), points_m, normals, settings)
+    weights = _neighbours(points_m, normals, settings.neighbours)
+    probability = smoothed(pointwise, weights, settings)
+    index = _components(probability.argmax(axis=1), points_m, weights, settings.smallest_share)
     roles: dict[str, PartRole | None] = {}
     confidence, order = {}, np.zeros(index.max() + 1, dtype=np.int16)
     # The largest parts first, so that the handle proper is `handle` and a piece of it `handle_2`.
@@ -109,12 +110,12 @@ def describe_surface(
     )
 
 
-def smoothed(
-    probability: Array, points_m: Array, normals: Array, settings: SegmentationSettings
-) -> Array:
-    """Probabilities (N, R) after each point has listened to its neighbours on the surface, again
-    and again."""
-    weights = _neighbours(points_m, normals, settings.neighbours)
+def smoothed(probability: Array, weights: csr_array, settings: SegmentationSettings) -> Array:
+    """Probabilities (N, R) after each point has listened to its neighbours, again and again.
+
+    Args:
+        weights: (N, N) of the neighbours of each point.
+    """
     total = weights.sum(axis=1)
     mixed = probability
     for _ in range(settings.smoothing_steps):
@@ -136,10 +137,10 @@ def _neighbours(points_m: Array, normals: Array, count: int) -> csr_array:
 
 
 def _components(
-    role: NDArray[np.intp], points_m: Array, normals: Array, settings: SegmentationSettings
+    role: NDArray[np.intp], points_m: Array, neighbours: csr_array, smallest_share: float
 ) -> NDArray[np.intp]:
     """Part (N,) of each point: neighbours with the same role; crumbs join the part beside them."""
-    weights = _neighbours(points_m, normals, settings.neighbours).tocoo()
+    weights = neighbours.tocoo()
     index = np.asarray(role)
     while True:
         same = index[weights.row] == index[weights.col]
@@ -149,7 +150,7 @@ def _components(
         count, index = connected_components(graph, directed=False)
         sizes = np.bincount(index, minlength=count)
         smallest = int(sizes.argmin())
-        if count == 1 or sizes[smallest] >= settings.smallest_share * len(points_m):
+        if count == 1 or sizes[smallest] >= smallest_share * len(points_m):
             return np.asarray(index)
         touching = (index[weights.row] == smallest) & (index[weights.col] != smallest)
         beside = np.bincount(index[weights.col[touching]], weights.data[touching], minlength=count)

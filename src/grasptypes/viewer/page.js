@@ -229,6 +229,7 @@ async function show(grasp) {
   objectGroup.clear();
   objectGroup.add(object.group);
   paint(object);
+  handGroup.visible = field("hand-shown").checked;
   drawContacts();
   pose(1);
   tell();

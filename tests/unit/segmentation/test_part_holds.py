@@ -50,17 +50,21 @@ def test_doubt_lowers_the_probability_of_a_hold():
     assert 0 < share_of(rarely, "handle") < share_of(holds, "handle")
 
 
-def test_a_crumb_beside_a_large_part_is_not_held():
-    drawn, parts = drawn_and_parts({"handle": 1.0, "head": 1.0, "handle_2": 1.0})
+def with_a_small_second_handle(confidence):
+    drawn, parts = drawn_and_parts({"handle": 0.8, "head": 0.8, "handle_2": confidence})
     index = np.array(parts.part_index)
     on_head = np.flatnonzero(index == list(parts.roles).index("head"))
     index[on_head[:10]] = 2
-    crumbs = replace(
-        parts, part_index=index, roles={**parts.roles, "handle_2": parts.roles["handle"]}
-    )
-    holds = part_holds(drawn, geometry(), crumbs, TASK)[1]
-    assert share_of(holds, "handle") > 0
-    assert share_of(holds, "handle_2") == 0
+    roles = {**parts.roles, "handle_2": parts.roles["handle"]}
+    return drawn, replace(parts, part_index=index, roles=roles)
+
+
+def test_a_crumb_beside_a_large_part_is_held_only_if_somebody_named_it():
+    for confidence, held in ((0.8, False), (1.0, True)):
+        drawn, crumbs = with_a_small_second_handle(confidence)
+        holds = part_holds(drawn, geometry(), crumbs, TASK)[1]
+        assert share_of(holds, "handle") > 0
+        assert (share_of(holds, "handle_2") > 0) == held
 
 
 def test_nobody_holds_parts_without_a_role():
