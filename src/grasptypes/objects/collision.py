@@ -21,6 +21,8 @@ _NORMALS = (
 )
 # Where planes are tried, as fractions of a piece's extent.
 _FRACTIONS = (0.3, 0.5, 0.7)
+# A simplified solid with less than this share of the volume has collapsed, as a thin disc does.
+_LEAST_SHARE = 0.01
 
 
 def convex_parts(parts: Sequence[Manifold], resolution: Resolution) -> list[Manifold]:
@@ -37,7 +39,7 @@ def convex_parts(parts: Sequence[Manifold], resolution: Resolution) -> list[Mani
     Returns:
         Convex solids, largest first.
     """
-    coarse = [part.simplify(resolution.collision_tolerance_m) for part in parts]
+    coarse = [_simplified(part, resolution.collision_tolerance_m) for part in parts]
     order = itertools.count()
     heap = [(-_excess(bit), next(order), bit) for part in coarse for bit in part.decompose()]
     heapq.heapify(heap)
@@ -55,11 +57,16 @@ def convex_parts(parts: Sequence[Manifold], resolution: Resolution) -> list[Mani
     return sorted(hulls, key=lambda hull: -hull.volume())
 
 
+def _simplified(solid: Manifold, tolerance_m: float) -> Manifold:
+    """A simplified solid; the solid itself if next to nothing is left, as of thin discs."""
+    coarse = solid.simplify(tolerance_m)
+    return coarse if coarse.volume() > _LEAST_SHARE * solid.volume() else solid
+
+
 def _coarse_hull(piece: Manifold, tolerance_m: float) -> Manifold:
-    """A piece's hull, simplified unless nothing would be left of it, as of thin slivers."""
     hull = piece.hull()
-    coarse = hull.simplify(tolerance_m).hull()
-    return hull if coarse.is_empty() else coarse
+    coarse = _simplified(hull, tolerance_m)
+    return hull if coarse is hull else coarse.hull()
 
 
 def _lighten(hull: Manifold, max_vertices: int) -> Manifold:

@@ -66,5 +66,12 @@ def test_thin_slivers_keep_their_hull():
     assert left.volume() < 0.03 * wall.volume()
 
 
+def test_parts_thinner_than_the_tolerance_keep_their_volume():
+    """The ring of the microphone collapses to a disc, of which engines make no body."""
+    disc = Manifold.cylinder(RESOLUTION.collision_tolerance_m / 2, 0.03, 0.03, 64)
+    (hull,) = collision.convex_parts([disc], RESOLUTION)
+    assert hull.volume() > disc.volume() / 2
+
+
 def _united(solids_: list) -> Manifold:
     return Manifold.batch_boolean(solids_, OpType.Add)
