@@ -13,6 +13,7 @@ from grasptypes.objects.mesh_companions import companions
 from grasptypes.objects.own_objects import measured_map
 from grasptypes.objects.reference_meshes import reference_meshes
 from grasptypes.objects.variants import all_objects, all_variants, base_of
+from grasptypes.predictors.photographs import photograph_files
 from grasptypes.predictors.weights import DOWNLOAD_SHA256_START, WEIGHTS_VARIABLE, chosen_weights
 from grasptypes.segmentation import NETWORK
 from grasptypes.settings.roles import ROLES
@@ -32,6 +33,7 @@ try:
     PUBLISHED_CSV = published_path(os.environ) or []
     REFERENCE_MESHES = [str(path) for path in reference_meshes(os.environ)]
     OBJECTS, VARIANTS = all_objects(PARAMS.objects), all_variants(PARAMS.objects)
+    PHOTOGRAPHS = [str(path) for path in photograph_files(os.environ, OBJECTS)]
     TASKS = list(config["tasks"])
     FITTED_ON = [name for name in config["grasp_types"]["fitted_on"] if name in OBJECTS]
     KNOWN = label_sources(config["labels"], PUBLISHED_COUNTS, OBJECTS, TASKS)

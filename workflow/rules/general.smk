@@ -62,6 +62,26 @@ rule describe_pictures:
         "../scripts/describe_pictures.py"
 
 
+# For those who have photographs: GRASPTYPES_PHOTOGRAPHS names a folder with photographs.csv.
+rule describe_photographs:
+    output:
+        features="data/general/features/photographs.npz",
+    params:
+        backbone=config["general"]["backbone"],
+        settings=config["backbone"],
+        limits=config["predict"]["photos"],
+        batch=config["features"]["batch"],
+        weights=weights_choice(),
+        table=PHOTOGRAPHS[:1],
+        objects=OBJECTS,
+        files=hashes(PHOTOGRAPHS),
+        code=script_hash("describe_photographs"),
+    message:
+        "Describing photographs"
+    script:
+        "../scripts/describe_photographs.py"
+
+
 # Unlike data/kinds/samples.csv, without the pairs that nothing holds.
 rule count_kind_types:
     input:
@@ -85,7 +105,8 @@ rule evaluate_general:
         kinds="data/general/features/kinds.npz",
         objects="data/general/features/objects.npz",
         renders="data/general/features/renders.npz",
-        scans=lambda wildcards: ["data/general/features/scans.npz"] if scanned() else [],
+        scans="data/general/features/scans.npz" if scanned() else [],
+        photographs=rules.describe_photographs.output.features if PHOTOGRAPHS else [],
         kind_samples=rules.count_kind_types.output.samples,
         kind_properties=every_shape(rules.prepare_kind.output.properties),
         simulated=SAMPLES["simulated"],

@@ -31,6 +31,8 @@ use rule map_contacts as map_kind_contacts with:
         contact_map="data/kinds/contact_maps/{object}/{task}.npz",
     wildcard_constraints:
         object=SHAPE_PATTERN,
+    params:
+        settings=settings("contact_maps") | {"sessions": config["kinds"]["sessions"]},
 
 
 use rule synthesize_grasps as synthesize_kind_grasps with:
@@ -89,7 +91,7 @@ rule plot_kinds:
     wildcard_constraints:
         group="[a-z]+",
     params:
-        kinds=config["kinds"],
+        sheet=config["kinds"]["sheet"],
         names=lambda wildcards: kinds_of(wildcards.group),
         blocks=lambda wildcards: kind_hash(*kinds_of(wildcards.group)),
         renders=settings("renders", "views", "sheet"),

@@ -3,6 +3,8 @@
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+import numpy as np
+import pandas as pd
 import torch
 
 from grasptypes.jobs import job
@@ -14,9 +16,16 @@ from grasptypes.predictors.general_files import (
     object_families,
     read_pictures_of,
 )
-from grasptypes.predictors.general_inputs import Pictures, object_facts
-from grasptypes.predictors.general_protocol import ANSWER_SCHEMA
-from grasptypes.predictors.general_study import Study, answer_everything
+from grasptypes.predictors.general_inputs import FACTS, object_facts
+from grasptypes.predictors.general_protocol import (
+    ANSWER_SCHEMA,
+    OBJECTS,
+    PHOTOGRAPHS,
+    PHOTOGRAPHS_KNOWN,
+    SCANS,
+    SCANS_KNOWN,
+)
+from grasptypes.predictors.general_study import Study, Test, answer_everything, first_views
 from grasptypes.settings.general import GeneralSettings
 from grasptypes.settings.predictors import PredictorSettings
 from grasptypes.settings.tasks import read_tasks
@@ -29,7 +38,8 @@ def read_study(
     """Everything that the protocol needs.
 
     Args:
-        files: images of kinds, objects, renders and scans (none or one); properties and samples.
+        files: images of kinds, objects and renders, of scans and photographs if there are any;
+            properties and samples.
         labels: sources of the samples of objects, in order.
     """
     known = {name: read_tasks()[name] for name in tasks}
@@ -55,9 +65,24 @@ def read_study(
         known,
     )
     renders = read_pictures_of(files["renders"])
-    scans = [read_pictures_of(path) for path in files["scans"]]
-    nothing = Pictures(renders.objects[:0], renders.features[:0], renders.classes[:0])
-    return Study(kinds, objects, renders, *(scans or [nothing]), samples)
+    shown = first_views(renders, settings.protocol.test_views)
+    tests = [Test(OBJECTS, shown, facts, objects.families, held_out=True)]
+    if files["scans"]:
+        scans = read_pictures_of(files["scans"])
+        tests += [
+            Test(SCANS_KNOWN, scans, facts, objects.families, held_out=False),
+            Test(SCANS, scans, facts, objects.families, held_out=True),
+        ]
+    if files["photographs"]:
+        photographs = read_pictures_of(files["photographs"])
+        unknown = pd.DataFrame(np.nan, sorted(set(photographs.objects)), list(FACTS))
+        others = [name for name in unknown.index if name not in objects.families]
+        families = {**objects.families, **kind_families(others)}
+        tests += [
+            Test(PHOTOGRAPHS_KNOWN, photographs, unknown, families, held_out=False),
+            Test(PHOTOGRAPHS, photographs, unknown, families, held_out=True),
+        ]
+    return Study(kinds, objects, renders, tests, samples)
 
 
 if __name__ == "__main__":

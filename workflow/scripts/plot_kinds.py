@@ -5,14 +5,14 @@ from grasptypes.jobs import job
 from grasptypes.renders.contact_pictures import plain
 from grasptypes.renders.renderer import Camera, png_bytes
 from grasptypes.reports.kind_sheets import kind_sheet
-from grasptypes.settings.kinds import KindSettings
+from grasptypes.settings.kinds import KindSheetSettings
 from grasptypes.settings.renders import CameraSettings
 
 if __name__ == "__main__":
     with job(snakemake.log):
         params = snakemake.params
-        kinds = KindSettings.check(params.kinds)
-        renders = plain(CameraSettings.check(params.renders), kinds.sheet.size_px)
+        sheet = KindSheetSettings.check(params.sheet)
+        renders = plain(CameraSettings.check(params.renders), sheet.size_px)
         with Camera(renders) as camera:
-            whole = kind_sheet(params.names, kinds.shapes, camera, kinds.sheet, params.crease_deg)
+            whole = kind_sheet(params.names, camera, sheet, params.crease_deg)
         write_bytes(snakemake.output.sheet, png_bytes(whole, renders.png_compression))

@@ -15,14 +15,14 @@ from grasptypes.predictors.members import Member
 from grasptypes.predictors.training import fit, predict
 from grasptypes.settings.predictors import PredictorSettings
 
-# A test: the objects left out of training, and the images (N, F) with their objects (N,).
-Test = tuple[frozenset[str], np.ndarray, np.ndarray]
+# What is asked: the objects left out of training, and the images (N, F) with their objects (N,).
+Asked = tuple[frozenset[str], np.ndarray, np.ndarray]
 
 
 def task_vector_answers(
     renders: tuple[np.ndarray, np.ndarray],
     samples: pd.DataFrame,
-    tests: Sequence[Test],
+    tests: Sequence[Asked],
     settings: PredictorSettings,
     seed: int,
 ) -> list[pd.DataFrame]:

@@ -33,7 +33,14 @@ CONSTANT, SIZE_ONLY, TASK_VECTOR, IMAGE, WITH_SIZE, VIEWS, VIEWS_WITH_SIZE = ROW
 SIMULATED = "simulated"
 # Probabilities are kept this far from 0 and 1.
 LEAST = 1e-6
-KINDS, OBJECTS, SCANS_KNOWN, SCANS = COLUMNS = ("kinds", "objects", "scans_known", "scans")
+KINDS, OBJECTS, SCANS_KNOWN, SCANS, PHOTOGRAPHS_KNOWN, PHOTOGRAPHS = COLUMNS = (
+    "kinds",
+    "objects",
+    "scans_known",
+    "scans",
+    "photographs_known",
+    "photographs",
+)
 
 _SHARE = pa.Check.in_range(0, 1)
 ANSWER_SCHEMA = pa.DataFrameSchema(
@@ -86,7 +93,7 @@ def answers(
     """Answers of all models about images of objects: a table of :data:`ANSWER_SCHEMA`, in part.
 
     Args:
-        facts: of the objects; index object.
+        facts: of the objects; index object. If all are NaN, models that need them do not answer.
         tasks: to ask for.
     """
     numbers = pd.Series(shown.objects).groupby(shown.objects).cumcount().to_numpy()
@@ -97,10 +104,11 @@ def answers(
         constant = np.tile(heads.constant[:, None], (1, len(inputs), 1))
         told = {
             CONSTANT: (constant[0], constant[1]),
-            SIZE_ONLY: probabilities(heads.size_only.logits(inputs)),
             IMAGE: probabilities(heads.whole.logits(inputs.without(FACTS))),
-            WITH_SIZE: probabilities(heads.whole.logits(inputs)),
         }
+        if np.isfinite(inputs.facts).any():
+            told[SIZE_ONLY] = probabilities(heads.size_only.logits(inputs))
+            told[WITH_SIZE] = probabilities(heads.whole.logits(inputs))
         parts += [answer_table(model, where, *told[model]) for model in told]
     return pd.concat(parts, ignore_index=True)
 
@@ -167,6 +175,8 @@ def finished(
     parts = [calm]
     for model, together in ((IMAGE, VIEWS), (WITH_SIZE, VIEWS_WITH_SIZE)):
         views = calm[calm["model"] == model].drop(columns=["model", "view"])
+        if views.empty:
+            continue
         mean = views.groupby(["object", "task"], as_index=False).mean()
         parts.append(mean.assign(model=together, view=ALL_VIEWS))
     whole = pd.concat(parts, ignore_index=True).assign(shown=shown, labels=labels)

@@ -1,21 +1,17 @@
-"""The protocol of Table III: kinds, the paper's objects and their scans, known and held out."""
+"""The protocol of Table III: kinds, the paper's objects, their scans, and photographs."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-import numpy as np
 import pandas as pd
 
-from grasptypes.predictors.general_baseline import Test, task_vector_answers
+from grasptypes.predictors.general_baseline import Asked, task_vector_answers
 from grasptypes.predictors.general_examples import Families, Known
 from grasptypes.predictors.general_inputs import Pictures, joined
 from grasptypes.predictors.general_protocol import (
     KINDS,
-    OBJECTS,
-    SCANS,
-    SCANS_KNOWN,
     SIMULATED,
     Heads,
     answers,
@@ -27,6 +23,34 @@ from grasptypes.predictors.general_protocol import (
 from grasptypes.settings.general import GeneralSettings
 from grasptypes.settings.predictors import PredictorSettings
 
+NOTHING: frozenset[str] = frozenset()
+
+
+@dataclass(frozen=True)
+class Test:
+    """Images of objects that all models answer for.
+
+    Attributes:
+        shown: name of the column.
+        pictures: of all objects.
+        facts: what is said of their size and mass; index object, NaN where nothing is.
+        families: of each object.
+        held_out: whether the families of an object are left out of what is learned.
+    """
+
+    shown: str
+    pictures: Pictures
+    facts: pd.DataFrame
+    families: Families
+    held_out: bool
+
+    def groups(self) -> dict[frozenset[str], list[str]]:
+        """The objects that are tested with the same heads, by the families that are left out."""
+        found: dict[frozenset[str], list[str]] = {}
+        for name in dict.fromkeys(self.pictures.objects.tolist()):
+            found.setdefault(self.families[name] if self.held_out else NOTHING, []).append(name)
+        return found
+
 
 @dataclass(frozen=True)
 class Study:
@@ -36,14 +60,14 @@ class Study:
         kinds: randomised images, sizes and labels of kinds.
         objects: those of the paper's objects, with simulated labels.
         renders: of the paper's objects, as its models see them.
-        scans: images of real scans of these objects; may be empty.
+        tests: everything that is tested but the kinds, which are held out in folds.
         samples: labels of the objects by source.
     """
 
     kinds: Known
     objects: Known
     renders: Pictures
-    scans: Pictures
+    tests: Sequence[Test]
     samples: Mapping[str, pd.DataFrame]
 
     def everything(self) -> Known:
@@ -57,13 +81,6 @@ class Study:
             self.kinds.tasks,
         )
 
-    def groups(self) -> dict[frozenset[str], list[str]]:
-        """The objects of each set of families, which are tested with the same heads."""
-        found: dict[frozenset[str], list[str]] = {}
-        for name in self.objects.facts.index:
-            found.setdefault(self.objects.families[name], []).append(name)
-        return found
-
 
 def answer_everything(
     study: Study, settings: GeneralSettings, baseline: PredictorSettings, seed: int
@@ -75,19 +92,15 @@ def answer_everything(
     folds = hold_out_kinds(study.kinds, settings.head, settings.protocol.folds, seed)
     heat = temperatures(pd.concat(folds), study.kinds.samples)
     tables = [calibrated_folds(folds, study.kinds.samples)]
-    everything, facts, tasks = study.everything(), study.objects.facts, study.kinds.tasks
-    tests = first_views(study.renders, settings.protocol.test_views)
-    for out, names in study.groups().items():
-        heads = Heads.of(everything.without(out), settings.head)
-        for shown, pictures in ((OBJECTS, tests), (SCANS, study.scans)):
-            if len(pictures.of(names).objects):
-                told = answers(heads, pictures.of(names), facts, tasks)
-                tables.append(finished(told, heat, shown, SIMULATED))
-    if len(study.scans.objects):
-        heads = Heads.of(everything, settings.head)
-        told = answers(heads, study.scans, facts, tasks)
-        tables.append(finished(told, heat, SCANS_KNOWN, SIMULATED))
-    tables += _of_baseline(study, tests, baseline, seed)
+    everything, tasks = study.everything(), study.kinds.tasks
+    heads: dict[frozenset[str], Heads] = {}
+    for test in study.tests:
+        for out, names in test.groups().items():
+            if out not in heads:
+                heads[out] = Heads.of(everything.without(out), settings.head)
+            told = answers(heads[out], test.pictures.of(names), test.facts, tasks)
+            tables.append(finished(told, heat, test.shown, SIMULATED))
+    tables += _of_baseline(study, baseline, seed)
     return pd.concat(tables, ignore_index=True)
 
 
@@ -97,33 +110,22 @@ def first_views(pictures: Pictures, count: int) -> Pictures:
     return pictures.rows(place.to_numpy() < count)
 
 
-def _of_baseline(
-    study: Study, tests: Pictures, settings: PredictorSettings, seed: int
-) -> list[pd.DataFrame]:
+def _of_baseline(study: Study, settings: PredictorSettings, seed: int) -> list[pd.DataFrame]:
     """The answers of the paper's model (b), for each source of labels."""
-    nobody: frozenset[str] = frozenset()
-    asked: list[tuple[str, Test]] = [(KINDS, _test(nobody, study.kinds.pictures))]
-    if len(study.scans.objects):
-        asked.append((SCANS_KNOWN, _test(nobody, study.scans)))
-    for families, names in study.groups().items():
-        relatives = frozenset(
-            name for name, own in study.objects.families.items() if own & families
-        )
-        asked.append((OBJECTS, _test(relatives, tests.of(names))))
-        if len(study.scans.of(names).objects):
-            asked.append((SCANS, _test(relatives, study.scans.of(names))))
+    own, shown = study.objects.families, [KINDS]
+    asked: list[Asked] = [(NOTHING, study.kinds.pictures.features, study.kinds.pictures.objects)]
+    for test in study.tests:
+        for out, names in test.groups().items():
+            relatives = frozenset(name for name, families in own.items() if families & out)
+            pictures = test.pictures.of(names)
+            shown.append(test.shown)
+            asked.append((relatives, pictures.features, pictures.objects))
     renders = study.renders.features, study.renders.objects
     tables = []
     for source, samples in study.samples.items():
-        told = task_vector_answers(renders, samples, [test for _, test in asked], settings, seed)
-        tables += [
-            _named(table, shown, source) for (shown, _), table in zip(asked, told, strict=True)
-        ]
+        told = task_vector_answers(renders, samples, asked, settings, seed)
+        tables += [_named(table, name, source) for name, table in zip(shown, told, strict=True)]
     return tables
-
-
-def _test(out: frozenset[str], pictures: Pictures) -> Test:
-    return out, pictures.features, np.asarray(pictures.objects)
 
 
 def _named(table: pd.DataFrame, shown: str, source: str) -> pd.DataFrame:

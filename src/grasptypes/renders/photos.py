@@ -18,6 +18,8 @@ from grasptypes.settings.commands import PhotoLimits
 # No formats that run another program (EPS) or are not for single screen images.
 FORMATS = ("PNG", "JPEG", "WEBP", "BMP", "TIFF", "GIF", "PPM")
 _MODES = ("1", "L", "LA", "P", "PA", "RGB", "RGBA", "CMYK", "YCbCr")
+# Left, top, right and bottom of a part of an image, in pixels from its upper left corner.
+Box = tuple[int, int, int, int]
 # Where images keep metadata, and how HEIC and AVIF begin.
 _METADATA = ("exif", "Raw profile type exif", "xmp", "XML:com.adobe.xmp")
 _PHONE_FORMATS = (b"heic", b"heix", b"heim", b"heis", b"hevc", b"mif1", b"msf1", b"avif", b"avis")
@@ -80,7 +82,10 @@ def check_photo(
 
 
 def read_photo(
-    path: str | Path, limits: PhotoLimits, background: tuple[int, int, int] | None = None
+    path: str | Path,
+    limits: PhotoLimits,
+    background: tuple[int, int, int] | None = None,
+    box: Box | None = None,
 ) -> np.ndarray:
     """Read an image as (S, S, 3) uint8, turned upright and padded to a square.
 
@@ -89,13 +94,15 @@ def read_photo(
 
     Args:
         background: RGB colour behind transparent pixels.
+        box: the part of the upright image to read; it must show at least a pixel.
 
     Raises:
         InputError: the file is not an image, is damaged, too small or too large, contains several
-            images, or has transparent pixels and no background is given.
+            images, has transparent pixels and no background is given, or does not contain the box.
     """
     with _opened(path, limits) as opened:
-        opened.draft("RGB", (limits.reduce_px, limits.reduce_px))
+        if box is None:
+            opened.draft("RGB", (limits.reduce_px, limits.reduce_px))
         opened.load()
         _check_opaque(path, opened, background)
         upright = _upright(path, opened)
@@ -103,6 +110,12 @@ def read_photo(
             behind = Image.new("RGBA", upright.size, background)
             upright = Image.alpha_composite(behind, upright.convert("RGBA"))
         upright = upright.convert("RGB")
+    if box is not None:
+        inside = 0 <= box[0] < box[2] <= upright.width and 0 <= box[1] < box[3] <= upright.height
+        if not inside:
+            size = f"{upright.width} x {upright.height} pixels"
+            raise InputError(path, "box", f"{box} is not a part of the image, which has {size}")
+        upright = upright.crop(box)
     upright.thumbnail((limits.reduce_px, limits.reduce_px))
     return padded(np.asarray(upright))
 

@@ -22,7 +22,6 @@ from grasptypes.settings.kinds import KindSheetSettings
 
 def kind_sheet(
     kinds: Sequence[str],
-    shapes: int,
     camera: Camera,
     settings: KindSheetSettings,
     crease_deg: float,
@@ -33,7 +32,7 @@ def kind_sheet(
     for kind in kinds:
         pictures = [
             shape_picture(name, camera, settings, crease_deg, folder)
-            for name in shape_names(kind, shapes)
+            for name in shape_names(kind, settings.shapes)
         ]
         tiles.append(Tile(np.hstack(pictures), kind.replace("_", " ")))
     return sheet([Group("", tiles)], settings.columns, settings.tile_px)
