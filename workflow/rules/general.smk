@@ -127,6 +127,30 @@ rule evaluate_general:
         "../scripts/evaluate_general.py"
 
 
+rule try_general:
+    input:
+        kinds="data/general/features/kinds.npz",
+        samples=rules.count_kind_types.output.samples,
+        properties=every_shape(rules.prepare_kind.output.properties),
+    output:
+        table="reports/general_trials.csv",
+        figure=report(
+            "reports/figures/general_kinds.png",
+            caption="../report/general_kinds.rst",
+            category="Unseen objects",
+            labels={"subject": "number of kinds", "labels": "simulated", "kind": "figure"},
+        ),
+    params:
+        settings=config["general"],
+        tasks=TASKS,
+        seed=config["seed"],
+        code=script_hash("try_general"),
+    message:
+        "Trying settings of the predictor for unseen objects"
+    script:
+        "../scripts/try_general.py"
+
+
 rule tabulate_general:
     input:
         answers=rules.evaluate_general.output.answers,

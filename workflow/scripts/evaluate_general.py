@@ -14,6 +14,7 @@ from grasptypes.predictors.general_files import (
     kind_families,
     labelled,
     object_families,
+    read_known_kinds,
     read_pictures_of,
 )
 from grasptypes.predictors.general_inputs import FACTS, object_facts
@@ -28,7 +29,6 @@ from grasptypes.predictors.general_protocol import (
 from grasptypes.predictors.general_study import Study, Test, answer_everything, first_views
 from grasptypes.settings.general import GeneralSettings
 from grasptypes.settings.predictors import PredictorSettings
-from grasptypes.settings.tasks import read_tasks
 from grasptypes.tables import write_table
 
 
@@ -42,16 +42,7 @@ def read_study(
             properties and samples.
         labels: sources of the samples of objects, in order.
     """
-    known = {name: read_tasks()[name] for name in tasks}
-    kind_samples = read_samples(files["kind_samples"])
-    shapes = sorted(set(kind_samples["object"]))
-    kinds = Known(
-        read_pictures_of(files["kinds"]).of(shapes),
-        object_facts(files["kind_properties"]).loc[shapes],
-        kind_samples,
-        kind_families(shapes),
-        known,
-    )
+    kinds = read_known_kinds(files["kinds"], files["kind_samples"], files["kind_properties"], tasks)
     facts = object_facts(files["properties"])
     samples = {
         source: labelled(read_samples(path), facts.index)
@@ -62,7 +53,7 @@ def read_study(
         facts,
         labelled(read_samples(files["simulated"]), facts.index),
         object_families(list(facts.index), settings.protocol.families),
-        known,
+        kinds.tasks,
     )
     renders = read_pictures_of(files["renders"])
     shown = first_views(renders, settings.protocol.test_views)

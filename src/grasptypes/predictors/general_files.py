@@ -12,7 +12,10 @@ from grasptypes.errors import InputError
 from grasptypes.files import read_npz, write_npz
 from grasptypes.kinds.library import read_kind
 from grasptypes.kinds.names import shape_of
-from grasptypes.predictors.general_inputs import Pictures
+from grasptypes.labels.samples import read_samples
+from grasptypes.predictors.general_examples import Known
+from grasptypes.predictors.general_inputs import Pictures, object_facts
+from grasptypes.settings.tasks import read_tasks
 
 
 def write_pictures(path: str | Path, pictures: Pictures) -> None:
@@ -40,6 +43,24 @@ def object_families(
 ) -> dict[str, frozenset[str]]:
     """The families of each object; one that has none is a family of its own."""
     return {name: frozenset(families.get(name, [name])) for name in objects}
+
+
+def read_known_kinds(
+    pictures: str | Path,
+    samples: str | Path,
+    properties: Iterable[str | Path],
+    tasks: Sequence[str],
+) -> Known:
+    """The kinds that have a label, with their images, sizes and families."""
+    table = read_samples(samples)
+    shapes = sorted(set(table["object"]))
+    return Known(
+        read_pictures_of(pictures).of(shapes),
+        object_facts(properties).loc[shapes],
+        table,
+        kind_families(shapes),
+        {name: read_tasks()[name] for name in tasks},
+    )
 
 
 def labelled(samples: pd.DataFrame, names: Iterable[str]) -> pd.DataFrame:

@@ -2,11 +2,20 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+from typing import Annotated, Literal, Self
 
-from pydantic import AfterValidator, Field
+from pydantic import AfterValidator, Field, ValidationError, model_validator
 
-from grasptypes.settings.base import Name, Pair, Settings, Share, Unique, setting
+from grasptypes.settings.base import (
+    Many,
+    MisplacedError,
+    Name,
+    Pair,
+    Settings,
+    Share,
+    Unique,
+    setting,
+)
 
 
 def _upwards(values: tuple[float, float]) -> tuple[float, float]:
@@ -106,6 +115,9 @@ class HeadSettings(Settings):
     weight_decay: float = setting("of all weights but the constant", ge=0, le=100)
 
 
+KINDS = "kinds"  # trials of training sets, next to those of the head
+
+
 class GeneralSettings(Settings):
     """The predictor for unseen objects."""
 
@@ -113,3 +125,23 @@ class GeneralSettings(Settings):
     backbone: Literal["mobilenet_v2", "efficientnet_lite0"] = setting("network of the features")
     head: HeadSettings
     protocol: ProtocolSettings
+    trials: dict[str, Many[int | float | bool]] = setting(
+        "values that keys of `head`, and the number of kinds, have instead, one at a time"
+    )
+
+    @model_validator(mode="after")
+    def _trials_are_possible(self) -> Self:
+        for key, values in self.trials.items():
+            for index, value in enumerate(values):
+                try:
+                    self.trial(key, value)
+                except ValidationError as error:
+                    message = f"{value} is no value of {key}: {error.errors()[0]['msg']}"
+                    raise MisplacedError(f"trials.{key}.{index}", message) from error
+        return self
+
+    def trial(self, key: str, value: float) -> tuple[HeadSettings, int]:
+        """The head's settings and the number of kinds of a trial; 0 kinds are all."""
+        if key == KINDS:
+            return self.head, int(value)
+        return HeadSettings.model_validate(self.head.model_dump() | {key: value}), 0

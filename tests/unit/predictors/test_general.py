@@ -5,6 +5,7 @@ import pandas as pd
 import pytest
 from tests.unit.settings import PARAMS
 
+from grasptypes.errors import InputError
 from grasptypes.labels.samples import COUNTS, samples_from_counts
 from grasptypes.predictors.general import fit_head, probabilities, temperature
 from grasptypes.predictors.general_examples import Known, family_folds
@@ -19,7 +20,9 @@ from grasptypes.predictors.general_protocol import (
     calibrated_folds,
     hold_out_kinds,
 )
+from grasptypes.reports.general_trials import TRIAL_SCHEMA, draw_curve, try_settings
 from grasptypes.reports.table3 import TABLE_SCHEMA, markdown, tabulate
+from grasptypes.settings.general import GeneralSettings
 from grasptypes.settings.tasks import read_tasks
 
 HEAD = PARAMS.general.head.changed(pictures=4, classes=3, weight_decay=0.003)
@@ -98,8 +101,27 @@ def test_a_new_task_has_coordinates_between_those_learned():
 
 
 def test_images_may_be_missing_for_no_label(known):
-    from grasptypes.errors import InputError
-
     blind = Known(known.pictures.of(["thing1"]), known.facts, known.samples, known.families, TASKS)
     with pytest.raises(InputError, match="thing0"):
         blind.examples(TaskCode.of(TASKS))
+
+
+def test_trials_change_one_setting_at_a_time(known):
+    settings = PARAMS.general.changed(head=HEAD, trials={"kinds": (4, 40), "facts": (False,)})
+    table = try_settings(known, settings, 0)
+    TRIAL_SCHEMA.validate(table)
+    row = table.set_index(["setting", "value", "model"])
+    few, many, blind = (
+        row.loc[(*key, WITH_SIZE)] for key in (("kinds", 4), ("kinds", 40), ("facts", 0))
+    )
+    assert few.learned == 4
+    assert few.similarity < many.similarity
+    assert blind.similarity < many.similarity
+    assert len(draw_curve(table).axes[0].lines) >= 4
+
+
+def test_an_impossible_trial_is_named():
+    with pytest.raises(InputError, match=r"trials.weight_decay.1: -1"):
+        GeneralSettings.check(
+            PARAMS.general.model_dump() | {"trials": {"weight_decay": [0.1, -1.0]}}
+        )
