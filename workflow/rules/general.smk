@@ -127,6 +127,29 @@ rule evaluate_general:
         "../scripts/evaluate_general.py"
 
 
+rule train_general:
+    input:
+        kinds="data/general/features/kinds.npz",
+        objects="data/general/features/objects.npz",
+        kind_samples=rules.count_kind_types.output.samples,
+        kind_properties=every_shape(rules.prepare_kind.output.properties),
+        simulated=SAMPLES["simulated"],
+        properties=expand("data/objects/{object}/properties.json", object=OBJECTS),
+    output:
+        head="models/general/general.npz",
+        card="models/general/general.json",
+    params:
+        settings=config["general"],
+        backbone=config["backbone"],
+        tasks=TASKS,
+        seed=config["seed"],
+        code=script_hash("train_general"),
+    message:
+        "Training the predictor for unseen objects"
+    script:
+        "../scripts/train_general.py"
+
+
 rule try_general:
     input:
         kinds="data/general/features/kinds.npz",

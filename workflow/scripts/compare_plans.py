@@ -40,7 +40,7 @@ def cases(
         tasks: tasks with labels, each with its colour shift.
         params: all parameters.
     """
-    model = params.predict.labels, params.predict.model
+    model = params.predict.labels, params.plan.comparison.model
     problem = read_problem(inputs, model, tasks, params.predictors)
     predicted = unseen_types(problem, params.plan.comparison.seeds, params.seed)
     found = []

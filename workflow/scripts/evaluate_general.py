@@ -9,15 +9,14 @@ import torch
 
 from grasptypes.jobs import job
 from grasptypes.labels.samples import read_samples
-from grasptypes.predictors.general_examples import Known
 from grasptypes.predictors.general_files import (
     kind_families,
     labelled,
-    object_families,
     read_known_kinds,
+    read_known_objects,
     read_pictures_of,
 )
-from grasptypes.predictors.general_inputs import FACTS, object_facts
+from grasptypes.predictors.general_inputs import FACTS
 from grasptypes.predictors.general_protocol import (
     ANSWER_SCHEMA,
     OBJECTS,
@@ -43,18 +42,18 @@ def read_study(
         labels: sources of the samples of objects, in order.
     """
     kinds = read_known_kinds(files["kinds"], files["kind_samples"], files["kind_properties"], tasks)
-    facts = object_facts(files["properties"])
+    objects = read_known_objects(
+        files["objects"],
+        files["simulated"],
+        files["properties"],
+        settings.protocol.families,
+        kinds,
+    )
+    facts = objects.facts
     samples = {
         source: labelled(read_samples(path), facts.index)
         for source, path in zip(labels, files["samples"], strict=True)
     }
-    objects = Known(
-        read_pictures_of(files["objects"]),
-        facts,
-        labelled(read_samples(files["simulated"]), facts.index),
-        object_families(list(facts.index), settings.protocol.families),
-        kinds.tasks,
-    )
     renders = read_pictures_of(files["renders"])
     shown = first_views(renders, settings.protocol.test_views)
     tests = [Test(OBJECTS, shown, facts, objects.families, held_out=True)]

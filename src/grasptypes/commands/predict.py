@@ -37,7 +37,16 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("--unit", choices=UNITS_M, help="unit of the mesh (default: m)")
     parser.add_argument("--task", help="task, by name or in words, e.g. use")
-    parser.add_argument("--model", help="a, b, c, d (row of Table I) or its name")
+    parser.add_argument(
+        "--size-m",
+        type=float,
+        nargs="+",
+        default=[],
+        metavar="LENGTH",
+        help="longest extent of the object, or all three, in metres; a mesh has its own",
+    )
+    parser.add_argument("--mass-kg", type=float, help="mass of the object (default: unknown)")
+    parser.add_argument("--model", help="general, or a model of Table I: a, b, c, d, e or its name")
     parser.add_argument("--labels", help="labels the model was trained on: simulated or published")
     parser.add_argument("--json", action="store_true", help="print JSON")
     parser.add_argument(
@@ -54,8 +63,7 @@ def run(args: argparse.Namespace) -> str:
     """
     params = checkout_params(args.folder)
     limits = params.predict.photos
-    if args.image and args.unit:
-        raise InputError("--unit", args.unit, "is for meshes (--object): an image has no unit")
+    _check_options(args)
     background = _background(args)
     files, skipped = photo_files(args.image) if args.image else ([], {})
     if args.picture:
@@ -74,13 +82,15 @@ def run(args: argparse.Namespace) -> str:
     if args.object:
         from grasptypes.objects.loading import own_object
 
-        views = predictor.mesh_images(own_object(args.object, args.unit or "m"))
+        views, size_m = predictor.mesh_images(own_object(args.object, args.unit or "m"))
         shown = iter([(f"{printable(args.object.name)}, mean of {len(views)} views", views)])
     else:
+        size_m = args.size_m
         shown = ((printable(file.name), photo) for file, photo in looks(read_photo, files))
     answers, pictures = [], []
     for name, images in shown:
-        answers.append(predictor.predict(images, task, name=name))
+        answer = predictor.predict(images, task, name=name, size_m=size_m, mass_kg=args.mass_kg)
+        answers.append(answer)
         if args.picture:
             pictures.append(predictor.images(images))
     for file, reason in sorted(skipped.items()):
@@ -94,6 +104,14 @@ def run(args: argparse.Namespace) -> str:
     if args.json:
         return json.dumps(predictor.describe(answers, task), indent=2) + "\n"
     return report(answers, predictor.card, task)
+
+
+def _check_options(args: argparse.Namespace) -> None:
+    """Reject options that have no meaning for what is shown."""
+    if args.object and args.size_m:
+        raise InputError("--size-m", "", "is for images (--image): a mesh has a size")
+    if args.image and args.unit:
+        raise InputError("--unit", args.unit, "is for meshes (--object): an image has no unit")
 
 
 def _background(args: argparse.Namespace) -> tuple[int, int, int] | None:

@@ -15,6 +15,7 @@ from typing import Any, NamedTuple
 import numpy as np
 import pandas as pd
 import pandera.pandas as pa
+from scipy.special import expit, softmax
 
 from grasptypes.contact_maps.contact_map import MapTask
 from grasptypes.labels.grasp_type import GRASP_TYPES
@@ -77,9 +78,15 @@ def unseen_types(
     predictions = try_splits(examples, members, problem.settings, key, problem.backbone).predictions
     logits = [f"logit_{kind}" for kind in TYPES]
     return {
-        (str(name), str(task)): Answer.of_logits("", TYPES, rows[logits].to_numpy()).grasp_types
+        (str(name), str(task)): _chosen(rows[logits].to_numpy())
         for (name, task), rows in predictions.groupby(["object", "task"])
     }
+
+
+def _chosen(logits: np.ndarray) -> list[str]:
+    """The types that a predictor chooses, from logits (views, types)."""
+    shares, occurs = softmax(logits, axis=-1).mean(axis=0), expit(logits).mean(axis=0)
+    return Answer("", TYPES, shares, occurs).grasp_types
 
 
 def compare(

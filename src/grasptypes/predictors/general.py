@@ -20,6 +20,8 @@ from torch import Tensor
 from grasptypes.predictors.general_inputs import FACTS
 from grasptypes.settings.general import HeadSettings
 
+# What a user may not know: nothing, the mass, all but the longest extent, everything.
+UNKNOWN = ((), FACTS[3:], FACTS[1:], FACTS)
 # Among which the temperature is searched.
 TEMPERATURES = (0.2, 5.0)
 
@@ -141,7 +143,7 @@ def _fact_columns(scaled: np.ndarray) -> np.ndarray:
     values = np.nan_to_num(scaled)
     products = [values[:, i] * values[:, j] for i in range(4) for j in range(i, 4)]
     # Products have a mean where both are known, which must not be mistaken for evidence.
-    return np.column_stack([values, *products, known[:, [0, 3]] - 0.5])
+    return np.column_stack([values, *products, known[:, [0, 1, 3]] - 0.5])
 
 
 def fit_head(inputs: Inputs, targets: Targets, settings: HeadSettings) -> GeneralHead:
@@ -151,9 +153,7 @@ def fit_head(inputs: Inputs, targets: Targets, settings: HeadSettings) -> Genera
         Projection.of(inputs.classes, settings.classes, settings.whitening),
     )
     scale = np.stack([np.nanmean(inputs.facts, axis=0), np.nanstd(inputs.facts, axis=0)])
-    copies = (
-        [inputs, inputs.without(FACTS[3:]), inputs.without(FACTS)] if settings.facts else [inputs]
-    )
+    copies = [inputs.without(names) for names in UNKNOWN] if settings.facts else [inputs]
     columns = np.vstack([design(copy, settings, projections, scale) for copy in copies])
     repeated = Targets(*(np.concatenate([array] * len(copies)) for array in vars(targets).values()))
     weights = _descend(columns, repeated, settings.weight_decay)

@@ -63,6 +63,24 @@ def read_known_kinds(
     )
 
 
+def read_known_objects(
+    pictures: str | Path,
+    samples: str | Path,
+    properties: Iterable[str | Path],
+    families: Mapping[str, Sequence[str]],
+    kinds: Known,
+) -> Known:
+    """The objects of the dataset, with their images, sizes and families, and the kinds' tasks."""
+    facts = object_facts(properties)
+    return Known(
+        read_pictures_of(pictures),
+        facts,
+        labelled(read_samples(samples), facts.index),
+        object_families(list(facts.index), families),
+        kinds.tasks,
+    )
+
+
 def labelled(samples: pd.DataFrame, names: Iterable[str]) -> pd.DataFrame:
     """The samples of some objects."""
     return samples[samples["object"].isin(list(names))].reset_index(drop=True)

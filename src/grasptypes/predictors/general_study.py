@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import pandas as pd
 
+from grasptypes.predictors.general import GeneralHead
 from grasptypes.predictors.general_baseline import Asked, task_vector_answers
 from grasptypes.predictors.general_examples import Families, Known
-from grasptypes.predictors.general_inputs import Pictures, joined
+from grasptypes.predictors.general_inputs import Pictures, TaskCode, joined
 from grasptypes.predictors.general_protocol import (
     KINDS,
     SIMULATED,
+    WITH_SIZE,
     Heads,
     answers,
     calibrated_folds,
@@ -70,16 +72,17 @@ class Study:
     tests: Sequence[Test]
     samples: Mapping[str, pd.DataFrame]
 
-    def everything(self) -> Known:
-        """Kinds and objects together."""
-        families: Families = {**self.kinds.families, **self.objects.families}
-        return Known(
-            joined([self.kinds.pictures, self.objects.pictures]),
-            pd.concat([self.kinds.facts, self.objects.facts]),
-            pd.concat([self.kinds.samples, self.objects.samples], ignore_index=True),
-            families,
-            self.kinds.tasks,
-        )
+
+def together(kinds: Known, objects: Known) -> Known:
+    """All examples of kinds and objects."""
+    families: Families = {**kinds.families, **objects.families}
+    return Known(
+        joined([kinds.pictures, objects.pictures]),
+        pd.concat([kinds.facts, objects.facts]),
+        pd.concat([kinds.samples, objects.samples], ignore_index=True),
+        families,
+        kinds.tasks,
+    )
 
 
 def answer_everything(
@@ -92,7 +95,7 @@ def answer_everything(
     folds = hold_out_kinds(study.kinds, settings.head, settings.protocol.folds, seed)
     heat = temperatures(pd.concat(folds), study.kinds.samples)
     tables = [calibrated_folds(folds, study.kinds.samples)]
-    everything, tasks = study.everything(), study.kinds.tasks
+    everything, tasks = together(study.kinds, study.objects), study.kinds.tasks
     heads: dict[frozenset[str], Heads] = {}
     for test in study.tests:
         for out, names in test.groups().items():
@@ -102,6 +105,16 @@ def answer_everything(
             tables.append(finished(told, heat, test.shown, SIMULATED))
     tables += _of_baseline(study, baseline, seed)
     return pd.concat(tables, ignore_index=True)
+
+
+def final_head(
+    kinds: Known, objects: Known, settings: GeneralSettings, seed: int
+) -> tuple[GeneralHead, TaskCode]:
+    """The head that has learned from everything, calibrated on held-out kinds."""
+    folds = hold_out_kinds(kinds, settings.head, settings.protocol.folds, seed)
+    heat = temperatures(pd.concat(folds), kinds.samples)
+    heads = Heads.of(together(kinds, objects), settings.head)
+    return replace(heads.whole, temperature=heat[WITH_SIZE]), heads.code
 
 
 def first_views(pictures: Pictures, count: int) -> Pictures:

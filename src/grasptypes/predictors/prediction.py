@@ -9,10 +9,16 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from scipy.special import expit, softmax
 
 from grasptypes.errors import InputError
 from grasptypes.objects.object_geometry import ObjectGeometry
+from grasptypes.predictors.general_predictor import (
+    GENERAL,
+    GeneralCard,
+    GeneralNetwork,
+    load_general,
+)
+from grasptypes.predictors.known_size import facts_of_size
 from grasptypes.predictors.metrics import SIGMOID_THRESHOLD
 from grasptypes.predictors.predictor import VARIANTS
 from grasptypes.predictors.predictor_files import (
@@ -29,6 +35,8 @@ from grasptypes.settings.params import PARAMS, Params, checkout_params
 # Label sources of trained models; their folders below models/.
 LABELS = ("simulated", "published")
 MODEL_OF_ROW = {variant.row: name for name, variant in VARIANTS.items()}
+Network = PredictorNetwork | GeneralNetwork
+Card = ModelCard | GeneralCard
 
 
 @dataclass(frozen=True)
@@ -38,19 +46,14 @@ class Answer:
     Attributes:
         name: name of the image or object.
         types: (K) grasp types, spelled as in model cards.
-        probability: (K,) softmax; sums to one.
-        sigmoid: (K,) probability of each type on its own.
+        probability: (K,) share of each type; sums to one.
+        sigmoid: (K,) probability that each type occurs, on its own.
     """
 
     name: str
     types: Sequence[str]
     probability: np.ndarray
     sigmoid: np.ndarray
-
-    @classmethod
-    def of_logits(cls, name: str, types: Sequence[str], logits: np.ndarray) -> Answer:
-        """The answer averaged over images, from logits (images, K)."""
-        return cls(name, types, softmax(logits, axis=-1).mean(axis=0), expit(logits).mean(axis=0))
 
     @property
     def chosen(self) -> np.ndarray:
@@ -76,7 +79,8 @@ def predictor_paths(root: str | Path, labels: str, model: str) -> tuple[Path, Pa
     """
     name = MODEL_OF_ROW.get(model, model)
     if name not in VARIANTS:
-        allowed = ", ".join(f"{row} ({name})" for row, name in MODEL_OF_ROW.items())
+        rows = (f"{row} ({name})" for row, name in MODEL_OF_ROW.items())
+        allowed = ", ".join([GENERAL, *rows])
         raise InputError("--model", model, f"unknown; allowed: {allowed}")
     if labels not in LABELS:
         raise InputError("--labels", labels, f"unknown; allowed: {', '.join(LABELS)}")
@@ -92,21 +96,26 @@ def predictor_paths(root: str | Path, labels: str, model: str) -> tuple[Path, Pa
     return tensors, card
 
 
-def load_model(root: str | Path, labels: str, model: str) -> PredictorNetwork:
-    """A trained model with the backbone's weights on this machine, see `predictor_paths`."""
+def load_model(root: str | Path, labels: str, model: str) -> Network:
+    """A trained model with the backbone's weights on this machine, see `predictor_paths`.
+
+    The predictor for unseen objects comes with the package, whatever the root and the labels.
+    """
+    if model == GENERAL:
+        return load_general()
     tensors, card = predictor_paths(root, labels, model)
     ModelCard.read(card)  # report a damaged card before missing weights
     return load_predictor(tensors, card, find_weights(timeout_s=0))
 
 
 class Predictor:
-    """A trained model of a checkout, which predicts the grasp types for an object and a task.
+    """A trained model, which predicts the grasp types for an object and a task.
 
     Args:
         params: parameters of the checkout: how meshes are rendered, which photos are accepted.
     """
 
-    def __init__(self, model: PredictorNetwork, params: Params) -> None:
+    def __init__(self, model: Network, params: Params) -> None:
         self.model = model
         self.params = params
 
@@ -124,7 +133,8 @@ class Predictor:
         Args:
             folder: checkout with the parameters and models; default: the current folder.
             labels: label source it was trained on; default: from the parameters.
-            model: name, or letter of its row in Table I; default: from the parameters.
+            model: `general`, or a model of Table I by its name or the letter of its row; default:
+                from the parameters.
             params: parameters to use instead of the checkout's.
 
         Raises:
@@ -136,7 +146,7 @@ class Predictor:
         return cls(load_model(folder or ".", *chosen), params)
 
     @property
-    def card(self) -> ModelCard:
+    def card(self) -> Card:
         """Description of the model."""
         return self.model.card
 
@@ -147,6 +157,8 @@ class Predictor:
         *,
         name: str = "",
         background: tuple[int, int, int] | None = None,
+        size_m: Sequence[float] = (),
+        mass_kg: float | None = None,
     ) -> Answer:
         """Predict grasp types.
 
@@ -156,12 +168,19 @@ class Predictor:
             task: the task; not needed for models that do not see it.
             name: name of the answer.
             background: RGB colour behind a photo's transparent pixels.
+            size_m: longest extent of the object, or all three, if known; those of an object with
+                geometry are known. Only the model `general` uses size and mass.
+            mass_kg: mass of the object, if known.
 
         Raises:
-            InputError: an unknown task, or an unusable photo.
+            InputError: an unknown task, an unusable photo, or a size or mass out of range.
         """
-        logits = self.model.logits(self.images(shown, background), self.check_task(task))
-        return Answer.of_logits(name, self.card.types, logits)
+        if isinstance(shown, ObjectGeometry) and not size_m:
+            size_m = np.ptp(shown.properties.bounds_m, axis=0).tolist()
+        facts = facts_of_size(size_m, mass_kg, self.params.predict)
+        pictures, task = self.images(shown, background), self.check_task(task)
+        shares, occurs = self.model.answers(pictures, task, facts)
+        return Answer(name, self.card.types, shares.mean(axis=0), occurs.mean(axis=0))
 
     def images(
         self,
@@ -175,8 +194,8 @@ class Predictor:
             return read_photo(shown, self.params.predict.photos, background)[None]
         return shown[None] if shown.ndim == 3 else shown
 
-    def mesh_images(self, own: OwnObject) -> np.ndarray:
-        """Like `images`, for a user's mesh that is not prepared for planning."""
+    def mesh_images(self, own: OwnObject) -> tuple[np.ndarray, list[float]]:
+        """Like `images`, for a user's mesh that is not prepared for planning, and its extents."""
         return mesh_views(own, self.params)
 
     def check_task(self, task: str | None) -> str:
@@ -215,7 +234,7 @@ class Predictor:
         }
 
 
-def report(answers: Sequence[Answer], card: ModelCard, task: str) -> str:
+def report(answers: Sequence[Answer], card: Card, task: str) -> str:
     """Answers as text: a block for one, one row each for several."""
     whose = f"task {task}" if card.sees_task else "whatever the task"
     lines = [

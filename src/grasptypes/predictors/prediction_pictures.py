@@ -8,8 +8,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from grasptypes.predictors.prediction import Answer, spelled
-from grasptypes.predictors.predictor_files import ModelCard
+from grasptypes.predictors.prediction import Answer, Card, spelled
 
 CHOSEN, OTHER = "#2a6f97", "#b8c4cc"
 ROW_IN = 2.6
@@ -18,7 +17,7 @@ LABEL_ROOM = 1.18  # right end of the bars' axis, with room for the number of a 
 
 
 def draw_answers(
-    pictures: Sequence[np.ndarray], answers: Sequence[Answer], card: ModelCard, task: str
+    pictures: Sequence[np.ndarray], answers: Sequence[Answer], card: Card, task: str
 ) -> Figure:
     """One row per answer: its image (H, W, 3) uint8 on the left, its bars on the right."""
     asked = f"for {task}" if card.sees_task else "whatever the task"

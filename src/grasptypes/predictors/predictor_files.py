@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
 import safetensors
 import safetensors.torch
 import torch
+from scipy.special import expit, softmax
 
 from grasptypes.errors import InputError
 from grasptypes.files import write_bytes
@@ -63,6 +64,17 @@ class PredictorNetwork:
         self.backbone = for_inference(backbone)
         self.head = head.eval()
         self.card = card
+
+    def answers(
+        self, pictures: np.ndarray, task: str, facts: Sequence[float] = ()
+    ) -> tuple[np.ndarray, np.ndarray]:
+        """Softmax and sigmoid (N, types) of images (N, H, W, 3) uint8; size and mass do not matter.
+
+        Raises:
+            InputError: the predictor does not know the task.
+        """
+        logits = self.logits(pictures, task)
+        return softmax(logits, axis=-1), expit(logits)
 
     def logits(self, pictures: np.ndarray, task: str) -> np.ndarray:
         """Logits (N, types) of images (N, H, W, 3) uint8.

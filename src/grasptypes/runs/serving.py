@@ -6,7 +6,6 @@ from pathlib import Path
 
 import mlflow
 import numpy as np
-import scipy.special
 from mlflow.exceptions import MlflowException
 from mlflow.protos.databricks_pb2 import INVALID_PARAMETER_VALUE
 from mlflow.pyfunc.model import PythonModel, PythonModelContext
@@ -47,7 +46,8 @@ class GraspTypePredictor(PythonModel):
         pictures = np.asarray(model_input["image"], dtype=np.uint8)
         tasks = np.asarray(model_input["task"]).astype(str).reshape(-1)
         outputs = len(self._predictor.card.types)
-        logits = np.zeros((len(pictures), outputs), dtype=np.float32)
+        probability = np.zeros((len(pictures), outputs), dtype=np.float32)
+        sigmoid = np.zeros_like(probability)
         if len(tasks) != len(pictures):
             raise _refusal(
                 f"{len(pictures)} images, but {len(tasks)} tasks: one task per image is needed"
@@ -63,11 +63,11 @@ class GraspTypePredictor(PythonModel):
         pictures = np.stack([padded(picture) for picture in pictures])
         for task in sorted(set(tasks)):
             try:
-                logits[tasks == task] = self._predictor.logits(pictures[tasks == task], task)
+                asked = tasks == task
+                probability[asked], sigmoid[asked] = self._predictor.answers(pictures[asked], task)
             except InputError as error:
                 raise _refusal(str(error)) from error
-        probability = scipy.special.softmax(logits, axis=1)
-        return {"probability": probability, "sigmoid": scipy.special.expit(logits)}
+        return {"probability": probability, "sigmoid": sigmoid}
 
 
 def _refusal(message: str) -> MlflowException:

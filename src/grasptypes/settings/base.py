@@ -74,11 +74,20 @@ def _present(name: str) -> str:
     return name
 
 
+def upwards(values: tuple[float, float]) -> tuple[float, float]:
+    """A range, lower end first; raises ValueError."""
+    low, high = values
+    if low > high:
+        raise ValueError(f"{low:g} is above {high:g}: give the smaller one first")
+    return values
+
+
 # Tuples instead of YAML's lists: settings shared by all jobs of a run must not change.
 Many = Annotated[tuple[T, ...], Field(strict=False)]
 Unique = Annotated[tuple[T, ...], Field(strict=False), AfterValidator(_unique)]
 Pair = Annotated[tuple[T, T], Field(strict=False)]
 Triple = Annotated[tuple[T, T, T], Field(strict=False)]
+Between = Annotated[Pair[float], AfterValidator(upwards)]
 # Limits that many keys have.
 Share = Annotated[float, Field(ge=0, le=1)]
 Weight = Annotated[float, Field(ge=0, le=100_000)]

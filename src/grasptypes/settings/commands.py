@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Literal
 
-from grasptypes.settings.base import Settings, setting
+from grasptypes.settings.base import Between, Settings, setting
 
 
 class PhotoLimits(Settings):
@@ -18,11 +18,13 @@ class PhotoLimits(Settings):
 class PredictSettings(Settings):
     """Defaults and limits of `grasptypes predict`."""
 
-    model: Literal["no_task", "task_vector", "task_in_image", "ignores_task", "e_mobilenet_v2"] = (
-        setting("a model of Table I")
-    )
+    model: Literal[
+        "general", "no_task", "task_vector", "task_in_image", "ignores_task", "e_mobilenet_v2"
+    ] = setting("the predictor for unseen objects, or a model of Table I")
     labels: Literal["simulated", "published"] = setting("label source the model was trained on")
     views: int = setting("number of views of a mesh", ge=1, le=1000)
+    size_m: Between = setting("extents of an object that are believed")
+    mass_kg: Between = setting("masses of an object that are believed")
     photos: PhotoLimits
 
 
@@ -31,6 +33,9 @@ class PlanComparisonSettings(Settings):
 
     sessions: int = setting("sessions per object and task", ge=1, le=1000)
     seeds: int = setting("repetitions of each predictor", ge=1, le=100)
+    model: Literal["no_task", "task_vector", "task_in_image", "ignores_task"] = setting(
+        "a model of Table I, which chooses types of objects that it has not seen"
+    )
 
 
 class PlanSettings(Settings):

@@ -7,6 +7,7 @@ from typing import Annotated, Literal, Self
 from pydantic import AfterValidator, Field, ValidationError, model_validator
 
 from grasptypes.settings.base import (
+    Between,
     Many,
     MisplacedError,
     Name,
@@ -15,18 +16,10 @@ from grasptypes.settings.base import (
     Share,
     Unique,
     setting,
+    upwards,
 )
 
-
-def _upwards(values: tuple[float, float]) -> tuple[float, float]:
-    low, high = values
-    if low > high:
-        raise ValueError(f"{low:g} is above {high:g}: give the smaller one first")
-    return values
-
-
-Between = Annotated[Pair[float], AfterValidator(_upwards)]
-Positive = Annotated[Pair[Annotated[float, Field(gt=0, le=1000)]], AfterValidator(_upwards)]
+Positive = Annotated[Pair[Annotated[float, Field(gt=0, le=1000)]], AfterValidator(upwards)]
 
 
 class ViewDraws(Settings):
@@ -73,7 +66,7 @@ class LensDraws(Settings):
     white_balance: float = setting("standard deviation of the logarithm of each colour", ge=0, le=1)
     blur_px: Between = setting("standard deviation of the blur")
     noise: Between = setting("standard deviation of the noise, levels of 255")
-    jpeg_quality: Annotated[Pair[Annotated[int, Field(ge=1, le=95)]], AfterValidator(_upwards)] = (
+    jpeg_quality: Annotated[Pair[Annotated[int, Field(ge=1, le=95)]], AfterValidator(upwards)] = (
         setting("quality of the JPEG file")
     )
 

@@ -107,7 +107,11 @@ def test_images_may_be_missing_for_no_label(known):
 
 
 def test_trials_change_one_setting_at_a_time(known):
-    settings = PARAMS.general.changed(head=HEAD, trials={"kinds": (4, 40), "facts": (False,)})
+    settings = PARAMS.general.changed(
+        head=HEAD,
+        trials={"kinds": (4, 40), "facts": (False,)},
+        protocol=PARAMS.general.protocol.changed(folds=2),
+    )
     table = try_settings(known, settings, 0)
     TRIAL_SCHEMA.validate(table)
     row = table.set_index(["setting", "value", "model"])

@@ -1,0 +1,154 @@
+"""The trained predictor for unseen objects: its file, and its answers about images."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+import torch
+
+from grasptypes.errors import InputError
+from grasptypes.files import read_npz, write_npz
+from grasptypes.predictors.backbone import Backbone, load_backbone
+from grasptypes.predictors.class_scores import class_scores
+from grasptypes.predictors.features import for_inference, forward
+from grasptypes.predictors.general import GeneralHead, Inputs, Projection, probabilities
+from grasptypes.predictors.general_backbone import weights_of
+from grasptypes.predictors.general_inputs import FACTS, TaskCode
+from grasptypes.predictors.weights import Weights
+from grasptypes.records import Record
+from grasptypes.settings.base import Many
+from grasptypes.settings.general import HeadSettings
+from grasptypes.settings.tasks import read_tasks
+
+GENERAL = "general"
+# The head that comes with the package; the rule train_general makes both files again.
+TRAINED = Path(__file__).with_name("trained")
+HEAD, CARD = "general.npz", "general.json"
+
+
+class GeneralCard(Record):
+    """Everything needed to use the predictor, apart from the numbers of its head.
+
+    Attributes:
+        types: names of its outputs.
+        learned: tasks of its examples.
+        shapes: number of objects that it has learned from.
+        head: settings of its head.
+        temperature: by which the logits of the first output are divided.
+        backbone: name of its backbone.
+        weights: name and checksum of the backbone's weights.
+        input_px: size of the backbone's input image.
+    """
+
+    types: Many[str]
+    learned: Many[str]
+    shapes: int
+    head: HeadSettings
+    temperature: float
+    backbone: str
+    weights: str
+    input_px: int
+
+    model: str = GENERAL
+    labels: str = "simulated"
+    finetune: str = "none"
+    sees_task: bool = True
+
+    @property
+    def tasks(self) -> tuple[str, ...]:
+        """The tasks that it answers for: a task is seen as what it demands."""
+        return tuple(read_tasks())
+
+
+class GeneralNetwork:
+    """A backbone, a head and their card: images, task, size and mass to grasp types."""
+
+    def __init__(
+        self,
+        backbone: Backbone,
+        weights: Weights,
+        head: GeneralHead,
+        code: TaskCode,
+        card: GeneralCard,
+    ) -> None:
+        self.backbone = for_inference(backbone)
+        self.weights = weights
+        self.head = head
+        self.code = code
+        self.card = card
+
+    def answers(
+        self, pictures: np.ndarray, task: str, facts: Sequence[float] = ()
+    ) -> tuple[np.ndarray, np.ndarray]:
+        """Share of each type, and probability that it occurs, (N, types) each.
+
+        Args:
+            pictures: (N, H, W, 3) uint8.
+            facts: of `general_inputs.FACTS`, NaN where unknown; default: all unknown.
+        """
+        tensor = torch.from_numpy(np.ascontiguousarray(pictures))
+        features = forward(self.backbone, tensor).numpy()
+        count = len(features)
+        known = np.array(facts or [np.nan] * len(FACTS), dtype=float)
+        inputs = Inputs(
+            features,
+            class_scores(self.weights, features),
+            np.tile(known, (count, 1)),
+            np.tile(self.code(read_tasks()[task]), (count, 1)),
+        )
+        occurs, shares = probabilities(self.head.logits(inputs))
+        return shares, occurs
+
+
+def write_general(
+    head: GeneralHead, code: TaskCode, card: GeneralCard, target: str | Path, described: str | Path
+) -> None:
+    """Write the numbers of a head, in single precision, and its card."""
+    arrays = {
+        "features_middle": head.features.middle,
+        "features_directions": head.features.directions,
+        "classes_middle": head.classes.middle,
+        "classes_directions": head.classes.directions,
+        "facts": head.facts,
+        "weights": head.weights,
+        "task_middle": code.middle,
+        "task_directions": code.directions,
+    }
+    write_npz(target, {name: array.astype(np.float32) for name, array in arrays.items()})
+    card.write(described)
+
+
+def load_general(
+    folder: str | Path = TRAINED, timeout_s: float = 0, weights: Weights | None = None
+) -> GeneralNetwork:
+    """Load a head, with the weights of its backbone on this machine.
+
+    Args:
+        folder: with both files.
+        timeout_s: how long to wait for weights that are not here; 0 disables network access.
+        weights: of the backbone; default: those of this machine.
+
+    Raises:
+        InputError: a file is missing or damaged, or the weights are not those learned with.
+    """
+    path, card = Path(folder, HEAD), GeneralCard.read(Path(folder, CARD))
+    weights = weights or weights_of(card.backbone, timeout_s)
+    if not card.weights.endswith(f"({weights.sha256[:8]})"):
+        message = f"learned with {card.weights}; here is {weights.name}"
+        raise InputError(Path(folder, CARD), "weights", message)
+    arrays = read_npz(path)
+    try:
+        head = GeneralHead(
+            card.head,
+            Projection(arrays["features_middle"], arrays["features_directions"]),
+            Projection(arrays["classes_middle"], arrays["classes_directions"]),
+            arrays["facts"],
+            arrays["weights"],
+            card.temperature,
+        )
+        code = TaskCode(arrays["task_middle"], arrays["task_directions"])
+    except KeyError as error:
+        raise InputError(path, str(error.args[0]), "this array is missing") from error
+    return GeneralNetwork(load_backbone(weights, card.input_px), weights, head, code, card)
