@@ -10,6 +10,8 @@ from grasptypes.kinds.names import check_names
 from grasptypes.labels.label_sources import check_published
 from grasptypes.objects.own_objects import check_every_hold, check_own_objects
 from grasptypes.objects.reference_meshes import reference_meshes
+from grasptypes.objects.variants import all_objects
+from grasptypes.predictors.photographs import photograph_files
 from grasptypes.settings.holds import check_tasks, read_hold_table
 from grasptypes.settings.params import Params
 from grasptypes.settings.tasks import read_tasks
@@ -36,3 +38,4 @@ def check_start(params: Params, root: str | Path, environment: Mapping[str, str]
     check_every_hold(params.objects, {name: read_tasks()[name] for name in params.tasks})
     check_published(environment)
     reference_meshes(environment)
+    photograph_files(environment, all_objects(params.objects))

@@ -19,7 +19,7 @@ from grasptypes.hands.reading import load_hand
 from grasptypes.versions.checkout import copy_checkout
 
 FOLDER = {"params.yaml": (ROOT / "params.yaml").read_bytes()}
-ASK = ("predict", "--image", "cup.png", "--task", "use")
+ASK = ("predict", "--image", "cup.png", "--task", "use", "--model", "b")
 MODEL = "models/simulated/task_vector"
 
 
@@ -95,6 +95,16 @@ CASES = [
         "a figure that cannot be written",
         (*ASK, "--picture", "/proc/cup.png"),
         "/proc/cup.png: cannot be created",
+    ),
+    asked("a size of three kilometres", (*ASK, "--size-m", "3000"), "--size-m: 3000", "0.001 to 2"),
+    asked("a size of nothing", (*ASK, "--size-m", "0"), "--size-m: 0: must be"),
+    asked("two lengths", (*ASK, "--size-m", "0.1", "0.2"), "--size-m: 2", "or all three"),
+    asked("a size in words", (*ASK, "--size-m", "big"), "--size-m", "'big'"),
+    asked("a negative mass", (*ASK, "--mass-kg", "-1"), "--mass-kg: -1: must be 0.001 to"),
+    asked(
+        "a size for a mesh",
+        ("predict", "--object", "cup.stl", "--task", "use", "--size-m", "0.1"),
+        "--size-m: is for images",
     ),
     asked("an unknown model", (*ASK, "--model", "x"), "--model: x", "task_vector"),
     asked("unknown labels", (*ASK, "--labels", "../.."), "--labels: ../..", "simulated, published"),

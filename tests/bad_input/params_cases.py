@@ -30,6 +30,16 @@ def environment(what: str, name: str, value: str, *names: str) -> Case:
     return Case("environment", what, files, start, (name, *names), {name: value})
 
 
+def photographs(what: str, row: str, *names: str) -> Case:
+    """A table of photographs with a wrong row."""
+    files = {
+        "params.yaml": (ROOT / "params.yaml").read_bytes(),
+        "photographs/photographs.csv": f"file,object,left,top,right,bottom\n{row}\n",
+    }
+    named = {"GRASPTYPES_PHOTOGRAPHS": "photographs"}
+    return Case("environment", what, files, start, ("photographs.csv", *names), named)
+
+
 CASES = [
     text("empty", "", "must contain a mapping"),
     text("a list", "- seed\n", "must contain a mapping"),
@@ -99,6 +109,10 @@ CASES = [
         "an own object with a catalogue name", {"objects": {"own": {"mug": BOX}}}, "objects.own.mug"
     ),
     environment("a missing table", "GRASPTYPES_PUBLISHED_CSV", "no.csv", "'no.csv'"),
+    environment("missing photographs", "GRASPTYPES_PHOTOGRAPHS", "no", "'no'", "photographs.csv"),
+    photographs("an object that is not known", "one.png,spaceship,0,0,40,40", "spaceship"),
+    photographs("a missing photograph", "two.png,mug,0,0,40,40", "file: no such file: two.png"),
+    photographs("a missing corner", "one.png,mug,0,0,,40", "right"),
     environment("missing scans", "GRASPTYPES_REFERENCE_MESHES", "no", "'no'"),
     environment(
         "a URL without checksum",

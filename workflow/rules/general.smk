@@ -136,8 +136,8 @@ rule train_general:
         simulated=SAMPLES["simulated"],
         properties=expand("data/objects/{object}/properties.json", object=OBJECTS),
     output:
-        head="models/general/general.npz",
-        card="models/general/general.json",
+        head="data/general/trained/general.npz",
+        card="data/general/trained/general.json",
     params:
         settings=config["general"],
         backbone=config["backbone"],
@@ -156,9 +156,9 @@ rule try_general:
         samples=rules.count_kind_types.output.samples,
         properties=every_shape(rules.prepare_kind.output.properties),
     output:
-        table="reports/general_trials.csv",
+        table="reports/general/trials.csv",
         figure=report(
-            "reports/figures/general_kinds.png",
+            "reports/general/kinds.png",
             caption="../report/general_kinds.rst",
             category="Unseen objects",
             labels={"subject": "number of kinds", "labels": "simulated", "kind": "figure"},
@@ -188,7 +188,7 @@ rule tabulate_general:
         ),
         markdown="reports/table3.md",
         figure=report(
-            "reports/figures/calibration.png",
+            "reports/general/calibration.png",
             caption="../report/table3.rst",
             category="Unseen objects",
             labels={"subject": "calibration", "labels": "both", "kind": "figure"},

@@ -16,6 +16,7 @@ from typing import Any
 from grasptypes.commands.settings import add_folder, check_target, printable, read_task
 from grasptypes.errors import InputError
 from grasptypes.objects.units import UNITS_M
+from grasptypes.predictors.known_size import facts_of_size
 from grasptypes.renders.photos import check_photo, photo_files, read_background, read_photo
 from grasptypes.settings.commands import PhotoLimits
 from grasptypes.settings.params import checkout_params
@@ -64,6 +65,7 @@ def run(args: argparse.Namespace) -> str:
     params = checkout_params(args.folder)
     limits = params.predict.photos
     _check_options(args)
+    facts_of_size(args.size_m, args.mass_kg, params.predict)
     background = _background(args)
     files, skipped = photo_files(args.image) if args.image else ([], {})
     if args.picture:
