@@ -26,6 +26,8 @@ rule train_role_network:
         network="data/segmentation/network.npz",
     params:
         settings=config["segmentation"]["training"],
+        fold=None,
+        relatives=[],
         seed=config["seed"],
         code=script_hash("train_role_network"),
     message:
@@ -34,20 +36,61 @@ rule train_role_network:
         "../scripts/train_role_network.py"
 
 
+# Families that an object of the paper is related to are left out together.
+RELATIVES = list(PARAMS.general.protocol.families.values())
+ROLE_FOLDS = range(PARAMS.segmentation.training.folds)
+
+
+use rule train_role_network as train_fold_network with:
+    output:
+        network="data/segmentation/networks/{fold}.npz",
+    wildcard_constraints:
+        fold=r"\d+",
+    params:
+        settings=config["segmentation"]["training"],
+        fold=lambda wildcards: int(wildcards.fold),
+        relatives=RELATIVES,
+        seed=config["seed"],
+        code=script_hash("train_role_network"),
+    message:
+        "Training the network that names roles without fold {wildcards.fold}"
+
+
 rule evaluate_roles:
     input:
         samples=kind_samples,
+        networks=expand(rules.train_fold_network.output.network, fold=ROLE_FOLDS),
     output:
         kinds="reports/kind_roles.csv",
         roles="reports/role_recognition.csv",
     params:
         settings=settings("segmentation"),
+        relatives=RELATIVES,
         seed=config["seed"],
         code=script_hash("evaluate_roles"),
     message:
-        "Testing the network that names roles on families that it has not seen"
+        "Testing methods that name roles on families that they have not seen"
     script:
         "../scripts/evaluate_roles.py"
+
+
+# The 19 objects of the paper are no kinds, but kinds of their families exist.
+rule compare_part_maps:
+    input:
+        networks=rules.evaluate_roles.input.networks,
+        surfaces=expand(rules.prepare_object.output.surface, object=config["objects"]["names"]),
+        properties=expand(rules.prepare_object.output.properties, object=config["objects"]["names"]),
+    output:
+        table="reports/part_contact_maps.csv",
+    params:
+        params=dict(config),
+        kinds=kinds_of(),
+        network=hashes(str(NETWORK)),
+        code=script_hash("compare_part_maps"),
+    message:
+        "Comparing contact maps of found parts with those of true parts"
+    script:
+        "../scripts/compare_part_maps.py"
 
 
 # For those who have scans: GRASPTYPES_REFERENCE_MESHES. The roles of a scan are those of our own model of the object.

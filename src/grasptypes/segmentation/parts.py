@@ -13,9 +13,9 @@ from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
 
 from grasptypes.segmentation.descriptors import Cloud, describe_points
-from grasptypes.segmentation.network import RoleNetwork, trained_network
+from grasptypes.segmentation.network import RoleModel, trained_network
 from grasptypes.settings.roles import PartRole
-from grasptypes.settings.segmentation import SegmentationSettings
+from grasptypes.settings.segmentation import PartSettings
 
 Array = NDArray[np.float64]
 
@@ -71,8 +71,8 @@ def described(parts: Parts) -> str:
 def find_parts(
     points_m: Array,
     normals: Array,
-    settings: SegmentationSettings,
-    network: RoleNetwork | None = None,
+    settings: PartSettings,
+    network: RoleModel | None = None,
 ) -> Parts:
     """Parts of an object from its shape.
 
@@ -100,7 +100,7 @@ def find_parts(
 
 
 def describe_surface(
-    points_m: Array, normals: Array, settings: SegmentationSettings
+    points_m: Array, normals: Array, settings: PartSettings
 ) -> NDArray[np.float32]:
     """Descriptors (N, D) of all points (N, 3) of an object."""
     cloud = Cloud.of_points(points_m, normals, settings.descriptors.points)
@@ -110,7 +110,7 @@ def describe_surface(
     )
 
 
-def smoothed(probability: Array, weights: csr_array, settings: SegmentationSettings) -> Array:
+def smoothed(probability: Array, weights: csr_array, settings: PartSettings) -> Array:
     """Probabilities (N, R) after each point has listened to its neighbours, again and again.
 
     Args:
@@ -125,8 +125,7 @@ def smoothed(probability: Array, weights: csr_array, settings: SegmentationSetti
 
 
 def _neighbours(points_m: Array, normals: Array, count: int) -> csr_array:
-    """Symmetric weights (N, N) of the nearest points; across an edge, or through a wall, they
-    count less."""
+    """Symmetric weights (N, N) of the nearest points, lower across an edge or through a wall."""
     distance, near = cKDTree(points_m).query(points_m, count + 1)
     distance, near = distance[:, 1:], near[:, 1:]
     agreement = np.einsum("nkj,nj->nk", normals[near], normals)
