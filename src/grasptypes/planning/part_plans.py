@@ -62,8 +62,11 @@ PART_PLAN_SCHEMA = pa.DataFrameSchema(
     unique=["object", "task", "parts"],
 )
 SHARE = pa.Check.in_range(0, 1)
+# The sets of scans, and how the names of the objects of one of them begin.
+CONTACTDB, YCB = SETS = ("contactdb", "ycb")
 GAIN_SCHEMA = pa.DataFrameSchema(
     {
+        "scans": pa.Column(str, pa.Check.isin(SETS)),
         "task": pa.Column(str),
         "parts": pa.Column(str, pa.Check.isin((FOUND, ANYWHERE))),
         "held": pa.Column(float, SHARE, description="share of the valid grasps"),
@@ -175,13 +178,14 @@ def _touching(
 
 
 def summary(table: pd.DataFrame) -> pd.DataFrame:
-    """One row per task and `parts`: shares, tests per accepted grasp, and the gain from parts.
+    """One row per set of scans, task and `parts`: shares, cost of an accepted grasp, and gain.
 
     The gain is that of the share of valid grasps that are accepted, with its standard error over
     objects.
     """
     rows = []
-    for task, of_task in table.groupby("task", sort=False):
+    sets = np.where(table.object.str.startswith(f"{YCB}_"), YCB, CONTACTDB)
+    for (scans, task), of_task in table.groupby([sets, "task"], sort=False):
         share = of_task.assign(share=of_task.accepted / of_task.valid.clip(lower=1)).pivot(
             index="object", columns="parts", values="share"
         )
@@ -192,6 +196,7 @@ def summary(table: pd.DataFrame) -> pd.DataFrame:
             ].sum()
             rows.append(
                 {
+                    "scans": scans,
                     "task": task,
                     "parts": parts,
                     **{
