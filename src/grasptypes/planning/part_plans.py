@@ -76,7 +76,9 @@ GAIN_SCHEMA = pa.DataFrameSchema(
         "valid": pa.Column(float, SHARE, description="share of the sessions"),
         "tests_per_accepted": pa.Column(float, nullable=True),
         "gain": pa.Column(float, description="of the accepted share, mean over objects"),
-        "error": pa.Column(float, description="standard error of the gain over objects"),
+        "error": pa.Column(
+            float, nullable=True, description="standard error of the gain over objects"
+        ),
     },
     strict=True,
     ordered=True,

@@ -5,6 +5,7 @@ import pytest
 import trimesh
 from tests.unit.settings import PARAMS
 
+from grasptypes.errors import InputError
 from grasptypes.objects.object_files import Surface
 from grasptypes.segmentation.evaluation import (
     FOREST_METHOD,
@@ -17,7 +18,7 @@ from grasptypes.segmentation.evaluation import (
 from grasptypes.segmentation.forest import grow_forest
 from grasptypes.segmentation.partial_views import SIDES, partial_views
 from grasptypes.segmentation.samples import sample_shapes
-from grasptypes.segmentation.true_roles import TrueRoles
+from grasptypes.segmentation.true_roles import TrueRoles, read_slices
 from grasptypes.settings.roles import PartRole
 
 SETTINGS = PARAMS.segmentation
@@ -49,6 +50,22 @@ def test_the_other_side_of_a_wall_has_its_own_role():
     points_m, down = np.array([[0.0, 0.0, 0.0002]]), np.array([[0.0, 0.0, -1.0]])
     assert true.at(points_m, down) == [WALL]
     assert true.at(points_m, -down) == [HANDLE]
+
+
+def test_of_the_slices_that_hold_the_first_counts(tmp_path):
+    bar = trimesh.creation.box((0.2, 0.02, 0.02)).subdivide_to_size(0.01)
+    surface = Surface(
+        bar.vertices, bar.faces, np.zeros(len(bar.vertices), dtype=np.int16), np.array(["a"])
+    )
+    table = tmp_path / "slices.csv"
+    lines = ["# measured", "object,role,attributes,axis,from_m,to_m", "bar,blade,wet,x,0.05,"]
+    table.write_text("\n".join([*lines, "bar,handle,,x,,"]))
+    true = TrueRoles.of_slices(surface, read_slices(table))
+    found = true.at(np.array([[0.09, 0.0, 0.01], [0.02, 0.0, 0.01]]), np.array([[0, 0, 1.0]] * 2))
+    assert [(part.role, part.attributes) for part in found] == [("blade", ("wet",)), ("handle", ())]
+    table.write_text("\n".join(lines))
+    with pytest.raises(InputError, match=r"bar: .*is in none"):
+        TrueRoles.of_slices(surface, read_slices(table))
 
 
 def test_a_forest_knows_the_shapes_that_it_has_seen():
