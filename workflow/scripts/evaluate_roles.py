@@ -13,7 +13,7 @@ from grasptypes.segmentation.evaluation import (
     role_table,
 )
 from grasptypes.segmentation.folds import kind_folds, learned_rows
-from grasptypes.segmentation.forest import grow_forest
+from grasptypes.segmentation.forest import RoleForest, grow_forest
 from grasptypes.segmentation.network import read_network
 from grasptypes.segmentation.samples import read_samples
 from grasptypes.settings.segmentation import SegmentationSettings
@@ -25,20 +25,16 @@ if __name__ == "__main__":
         samples = read_samples(snakemake.input.samples)
         settings = SegmentationSettings.check(params.settings)
         protocol = settings.training.folds, params.seed, params.relatives
-        networks = [read_network(path) for path in snakemake.input.networks]
-        forests = [
-            grow_forest(
-                samples,
-                *learned_rows(samples.families, fold, *protocol),
-                settings.forest,
-                snakemake.threads,
-            )
-            for fold in range(settings.training.folds)
-        ]
-        kinds, roles = [], []
-        for method, models in ((NETWORK_METHOD, networks), (FOREST_METHOD, forests)):
-            folds = kind_folds(samples.families, *protocol)
-            found = held_out_roles(samples, folds, models, settings)
+        networks = snakemake.input.networks
+
+        def grow(fold: int) -> RoleForest:
+            rows, key = learned_rows(samples.families, fold, *protocol)
+            return grow_forest(samples, rows, key, settings.forest)
+
+        methods = {NETWORK_METHOD: lambda fold: read_network(networks[fold]), FOREST_METHOD: grow}
+        kinds, roles, folds = [], [], kind_folds(samples.families, *protocol)
+        for method, learn in methods.items():
+            found = held_out_roles(samples, folds, learn, settings)
             kinds.append(kind_table(method, samples, found))
             roles.append(role_table(method, samples, found))
         write_table(pd.concat(kinds), snakemake.output.kinds, KIND_SCHEMA)

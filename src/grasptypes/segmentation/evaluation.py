@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -14,7 +14,13 @@ from numpy.typing import NDArray
 from grasptypes.kinds.names import shape_of
 from grasptypes.segmentation.network import RoleModel, RoleNetwork
 from grasptypes.segmentation.partial_views import partial_views
-from grasptypes.segmentation.parts import Parts, describe_surface, described, find_parts
+from grasptypes.segmentation.parts import (
+    Parts,
+    describe_surface,
+    described,
+    find_parts,
+    likely_parts,
+)
 from grasptypes.segmentation.samples import RoleSamples, sample_evenly
 from grasptypes.segmentation.true_roles import TrueRoles
 from grasptypes.settings.holds import read_hold_table
@@ -94,25 +100,31 @@ class FoundRoles:
 def held_out_roles(
     samples: RoleSamples,
     folds: NDArray[np.intp],
-    models: Sequence[RoleModel],
+    learn: Callable[[int], RoleModel],
     settings: SegmentationSettings,
 ) -> FoundRoles:
     """Roles of the first shape of each kind, by models that have seen none of its family.
 
     Args:
         folds: (S,) fold of each shape.
-        models: of each fold, which has seen all others.
+        learn: gives the model of a fold, which has seen all others; one is kept at a time.
     """
     kinds = np.array([shape_of(name)[0] for name in samples.shapes])
-    rows = np.sort(np.unique(kinds, return_index=True)[1])
+    rows = np.unique(kinds, return_index=True)[1]
+    rows = rows[np.lexsort([rows, folds[rows]])]
     pointwise, smoothed = [], []
-    for row in rows:
-        cloud = samples.points_m[row].astype(np.float64), samples.normals[row].astype(np.float64)
-        model = models[folds[row]]
-        chances = model.probabilities(describe_surface(*cloud, settings))
-        pointwise.append(chances.argmax(axis=1))
-        smoothed.append(role_index(find_parts(*cloud, settings, model)))
-    return FoundRoles(rows, np.stack(pointwise), np.stack(smoothed))
+    for fold in np.unique(folds[rows]):
+        model = learn(int(fold))
+        for row in rows[folds[rows] == fold]:
+            points_m, normals = (
+                each[row].astype(np.float64) for each in (samples.points_m, samples.normals)
+            )
+            chances = model.probabilities(describe_surface(points_m, normals, settings))
+            parts = likely_parts(points_m, normals, chances, model.roles, settings)
+            pointwise.append(chances.argmax(axis=1))
+            smoothed.append(role_index(parts))
+    order = np.argsort(rows)
+    return FoundRoles(rows[order], np.stack(pointwise)[order], np.stack(smoothed)[order])
 
 
 def role_index(parts: Parts) -> NDArray[np.intp]:

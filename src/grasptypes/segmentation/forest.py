@@ -39,14 +39,12 @@ def grow_forest(
     rows: NDArray[np.intp],
     key: Sequence[str | int],
     settings: ForestSettings,
-    jobs: int = 1,
 ) -> RoleForest:
     """A forest grown on some of the shapes; families of many kinds count as for the network.
 
     Args:
         rows: (n,) shapes to learn from.
         key: name of the computation, for its random numbers.
-        jobs: number of threads; the result does not depend on it.
     """
     inputs = samples.descriptors[rows, : settings.points]
     targets = samples.roles[rows, : inputs.shape[1]]
@@ -55,7 +53,6 @@ def grow_forest(
         settings.trees,
         min_samples_leaf=settings.least_points,
         random_state=seed("role forest", *key) % 2**32,
-        n_jobs=jobs,
     )
     trees.fit(inputs.reshape(-1, inputs.shape[2]), targets.ravel(), weights)
     return RoleForest(tuple(read_roles().roles), trees)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -82,6 +82,13 @@ def find_parts(
     """
     network = network or trained_network()
     pointwise = network.probabilities(describe_surface(points_m, normals, settings))
+    return likely_parts(points_m, normals, pointwise, network.roles, settings)
+
+
+def likely_parts(
+    points_m: Array, normals: Array, pointwise: Array, names: Sequence[str], settings: PartSettings
+) -> Parts:
+    """Parts of an object whose points (N, 3) have probabilities (N, R) of the named roles."""
     weights = _neighbours(points_m, normals, settings.neighbours)
     probability = smoothed(pointwise, weights, settings)
     index = _components(probability.argmax(axis=1), points_m, weights, settings.smallest_share)
@@ -91,7 +98,7 @@ def find_parts(
     sizes = np.bincount(index)
     for place, part in enumerate(np.argsort(-sizes, kind="stable")):
         mean = probability[index == part].mean(axis=0)
-        role = network.roles[int(mean.argmax())]
+        role = names[int(mean.argmax())]
         taken = sum(known is not None and known.role == role for known in roles.values())
         name = f"{role}_{taken + 1}" if taken else role
         roles[name], confidence[name] = PartRole.check({"role": role}), float(mean.max())
