@@ -51,7 +51,7 @@ rule map_contacts:
         contact_map="data/contact_maps/{object}/{task}.npz",
     params:
         settings=settings("contact_maps"),
-        segmentation=config["segmentation"],
+        segmentation=settings("segmentation", "samples", "training", "forest"),
         network=hashes(str(NETWORK)),
         knowledge=hashes(KNOWLEDGE),
         unit=lambda wildcards: map_unit(wildcards.object),

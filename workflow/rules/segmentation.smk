@@ -26,6 +26,8 @@ rule train_role_network:
         network="data/segmentation/network.npz",
     params:
         settings=config["segmentation"]["training"],
+        fold=None,
+        relatives=[],
         seed=config["seed"],
         code=script_hash("train_role_network"),
     message:
@@ -34,20 +36,61 @@ rule train_role_network:
         "../scripts/train_role_network.py"
 
 
+# Families that an object of the paper is related to are left out together.
+RELATIVES = list(PARAMS.general.protocol.families.values())
+ROLE_FOLDS = range(PARAMS.segmentation.training.folds)
+
+
+use rule train_role_network as train_fold_network with:
+    output:
+        network="data/segmentation/networks/{fold}.npz",
+    wildcard_constraints:
+        fold=r"\d+",
+    params:
+        settings=config["segmentation"]["training"],
+        fold=lambda wildcards: int(wildcards.fold),
+        relatives=RELATIVES,
+        seed=config["seed"],
+        code=script_hash("train_role_network"),
+    message:
+        "Training the network that names roles without fold {wildcards.fold}"
+
+
 rule evaluate_roles:
     input:
         samples=kind_samples,
+        networks=expand(rules.train_fold_network.output.network, fold=ROLE_FOLDS),
     output:
         kinds="reports/kind_roles.csv",
         roles="reports/role_recognition.csv",
     params:
         settings=settings("segmentation"),
+        relatives=RELATIVES,
         seed=config["seed"],
         code=script_hash("evaluate_roles"),
     message:
-        "Testing the network that names roles on families that it has not seen"
+        "Testing methods that name roles on families that they have not seen"
     script:
         "../scripts/evaluate_roles.py"
+
+
+# The 19 objects of the paper are no kinds, but kinds of their families exist.
+rule compare_part_maps:
+    input:
+        networks=rules.evaluate_roles.input.networks,
+        surfaces=expand(rules.prepare_object.output.surface, object=config["objects"]["names"]),
+        properties=expand(rules.prepare_object.output.properties, object=config["objects"]["names"]),
+    output:
+        table="reports/part_contact_maps.csv",
+    params:
+        params=dict(config),
+        kinds=kinds_of(),
+        network=hashes(str(NETWORK)),
+        code=script_hash("compare_part_maps"),
+    message:
+        "Comparing contact maps of found parts with those of true parts"
+    script:
+        "../scripts/compare_part_maps.py"
 
 
 # For those who have scans: GRASPTYPES_REFERENCE_MESHES. The roles of a scan are those of our own model of the object.
@@ -69,7 +112,25 @@ rule evaluate_roles_on_scans:
         "../scripts/evaluate_roles_on_scans.py"
 
 
-SCANS = {Path(path).stem: path for path in REFERENCE_MESHES}
+# Scans to plan for, with their scale and mass: of ContactDB, whose true roles our models tell, and of YCB objects with a
+# table of true roles. A mass of None is that of a solid of water.
+YCB, YCB_ROLES = "ycb_", "assets/ycb_roles.csv"
+
+
+def planned_scans():
+    """File, scale and mass of each scan that the user has, by name."""
+    scans = {Path(path).stem: (path, config["objects"]["scale"], None) for path in REFERENCE_MESHES}
+    folder = Path(real_objects(os.environ)["ycb"])
+    if folder.is_dir():
+        masses_kg = json.loads((folder / "scripts/ycb_mass.json").read_text(encoding="utf-8"))
+        lines = Path(YCB_ROLES).read_text(encoding="utf-8").splitlines()
+        for name in {line.split(",")[0]: None for line in lines if line.startswith(YCB)}:
+            known = name.removeprefix(YCB)
+            scans[name] = str(folder / "ycb" / known / "textured.obj"), 1.0, masses_kg[known]
+    return scans
+
+
+SCANS = planned_scans()
 
 
 rule plan_scan:
@@ -79,8 +140,12 @@ rule plan_scan:
         scan="|".join(SCANS) or "none",
     params:
         params=dict(config),
-        scan=lambda wildcards: SCANS[wildcards.scan],
-        mesh=lambda wildcards: hashes(SCANS[wildcards.scan]),
+        file=lambda wildcards: SCANS[wildcards.scan][0],
+        mesh=lambda wildcards: hashes(SCANS[wildcards.scan][0]),
+        scale=lambda wildcards: SCANS[wildcards.scan][1],
+        mass_kg=lambda wildcards: SCANS[wildcards.scan][2],
+        slices=YCB_ROLES,
+        roles=hashes(YCB_ROLES),
         hand=hand_parameter(config["hand"]),
         code=script_hash("plan_scan"),
     message:

@@ -1,24 +1,41 @@
-"""Test networks that name roles on families of kinds that they have not seen."""
+"""Test methods that name roles on families of kinds that they have not seen."""
 
-import torch
+import pandas as pd
 
 from grasptypes.jobs import job
 from grasptypes.segmentation.evaluation import (
+    FOREST_METHOD,
     KIND_SCHEMA,
+    NETWORK_METHOD,
     ROLE_SCHEMA,
     held_out_roles,
     kind_table,
     role_table,
 )
+from grasptypes.segmentation.folds import kind_folds, learned_rows
+from grasptypes.segmentation.forest import RoleForest, grow_forest
+from grasptypes.segmentation.network import read_network
 from grasptypes.segmentation.samples import read_samples
 from grasptypes.settings.segmentation import SegmentationSettings
 from grasptypes.tables import write_table
 
 if __name__ == "__main__":
     with job(snakemake.log):
-        torch.set_num_threads(snakemake.threads)
+        params = snakemake.params
         samples = read_samples(snakemake.input.samples)
-        settings = SegmentationSettings.check(snakemake.params.settings)
-        found = held_out_roles(samples, settings, snakemake.params.seed)
-        write_table(kind_table(samples, found), snakemake.output.kinds, KIND_SCHEMA)
-        write_table(role_table(samples, found), snakemake.output.roles, ROLE_SCHEMA)
+        settings = SegmentationSettings.check(params.settings)
+        protocol = settings.training.folds, params.seed, params.relatives
+        networks = snakemake.input.networks
+
+        def grow(fold: int) -> RoleForest:
+            rows, key = learned_rows(samples.families, fold, *protocol)
+            return grow_forest(samples, rows, key, settings.forest)
+
+        methods = {NETWORK_METHOD: lambda fold: read_network(networks[fold]), FOREST_METHOD: grow}
+        kinds, roles, folds = [], [], kind_folds(samples.families, *protocol)
+        for method, learn in methods.items():
+            found = held_out_roles(samples, folds, learn, settings)
+            kinds.append(kind_table(method, samples, found))
+            roles.append(role_table(method, samples, found))
+        write_table(pd.concat(kinds), snakemake.output.kinds, KIND_SCHEMA)
+        write_table(pd.concat(roles), snakemake.output.roles, ROLE_SCHEMA)

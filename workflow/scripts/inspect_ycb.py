@@ -1,5 +1,4 @@
-"""Inspect YCB objects: a sheet with the roles and the contact maps of each, and a table of the
-parts found."""
+"""Inspect YCB objects: a sheet of the roles and contact maps of each, and a table of the parts."""
 
 import json
 from pathlib import Path

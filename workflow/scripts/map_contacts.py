@@ -15,7 +15,7 @@ from grasptypes.segmentation.known_parts import known_parts
 from grasptypes.segmentation.part_holds import part_holds
 from grasptypes.segmentation.parts import described
 from grasptypes.settings.contact_maps import ContactMapSettings
-from grasptypes.settings.segmentation import SegmentationSettings
+from grasptypes.settings.segmentation import PartSettings
 from grasptypes.settings.tasks import read_tasks
 
 LOGGER = logging.getLogger("grasptypes")
@@ -26,7 +26,7 @@ def draw_map(
     geometry: ObjectGeometry,
     measured: str | Path | None,
     unit: str,
-    settings: SegmentationSettings,
+    settings: PartSettings,
 ) -> ContactMap:
     """The contact map: from a measured map (in its unit), else from roles, else from the shape."""
     if measured:
@@ -36,7 +36,7 @@ def draw_map(
         return map_contacts(task, object_holds(task, geometry))
     parts = known_parts(geometry, task.points, settings)
     LOGGER.warning("%s: parts by %s: %s", geometry.name, parts.basis, described(parts))
-    seen, holds = part_holds(task, geometry, parts, read_tasks()[task.name[1]])
+    seen, holds = part_holds(task, geometry, parts, read_tasks()[task.name[1]], settings)
     if not holds:
         message = f"people hold none of its parts for {task.name[1]}: {described(parts)}"
         raise InputError(geometry.name, "", message)
@@ -53,6 +53,6 @@ if __name__ == "__main__":
             params.seed,
             ContactMapSettings.check(params.settings),
         )
-        segmentation = SegmentationSettings.check(params.segmentation)
+        segmentation = PartSettings.check(params.segmentation)
         contact_map = draw_map(task, geometry, inputs.measured, params.unit, segmentation)
         write_contact_map(contact_map, snakemake.output.contact_map)

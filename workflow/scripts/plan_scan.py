@@ -1,43 +1,39 @@
-"""Plan grasps of a scan with and without the parts that its shape shows, and judge them by its
-true roles."""
+"""Plan grasps of a scan with and without its parts, and judge them by its true roles."""
 
 from pathlib import Path
 
 import pandas as pd
 
 from grasptypes.jobs import job
-from grasptypes.kinds.catalogue import build
 from grasptypes.objects.loading import load_object
-from grasptypes.objects.preparation import part_surface, scaled_parts
-from grasptypes.planning.part_plans import PART_PLAN_SCHEMA, TrueRoles, study_plans
+from grasptypes.planning.part_plans import PART_PLAN_SCHEMA, study_plans
 from grasptypes.planning.sessions import PlanningContext
+from grasptypes.segmentation.true_roles import read_slices, true_roles
 from grasptypes.settings.params import Params
 from grasptypes.tables import write_table
 
 
-def plan_scan(path: Path, params: Params) -> pd.DataFrame:
+def plan_scan(
+    name: str, path: Path, scale: float, mass_kg: float | None, slices: pd.DataFrame, params: Params
+) -> pd.DataFrame:
     """The rows of a scan for all tasks."""
-    resolution, scale = params.objects.resolution, params.objects.scale
-    models = scaled_parts(build(path.stem), scale)
-    surface = part_surface(models, resolution.surface_tolerance_m, resolution.surface_edge_m)
-    role_of = {part.name: part.role for part in models if part.role}
-    names = [str(surface.part_names[index]) for index in surface.part_index]
-    true = TrueRoles(surface.vertices, [role_of[name] for name in names])
-    geometry = load_object(path, scale=scale, settings=params.objects)
-    return pd.DataFrame(
-        [
-            row
-            for task in params.tasks
-            for row in study_plans(
-                PlanningContext(geometry, task, path.stem, params.hand, params),
-                true,
-                params.hold_fit.touch,
-            )
-        ]
-    )
+    objects = params.objects
+    geometry = load_object(path, scale=scale, mass_kg=mass_kg, name=name, settings=objects)
+    true = true_roles(geometry, slices, scale, objects.resolution)
+    contexts = [PlanningContext(geometry, task, name, params.hand, params) for task in params.tasks]
+    touch = params.hold_fit.touch
+    return pd.DataFrame([row for each in contexts for row in study_plans(each, true, touch)])
 
 
 if __name__ == "__main__":
     with job(snakemake.log):
-        table = plan_scan(Path(snakemake.params.scan), Params.check(snakemake.params.params))
+        given = snakemake.params
+        table = plan_scan(
+            snakemake.wildcards.scan,
+            Path(given.file),
+            given.scale,
+            given.mass_kg,
+            read_slices(given.slices),
+            Params.check(given.params),
+        )
         write_table(table, snakemake.output.table, PART_PLAN_SCHEMA)

@@ -1,5 +1,4 @@
-"""An object as the planner sees it: parts with roles, and for each task where people hold it and
-how."""
+"""An object as the planner sees it: parts with roles, and how people hold them for each task."""
 
 from __future__ import annotations
 
@@ -109,7 +108,8 @@ def inspect_object(
         named = MapTask(
             drawn.points, drawn.part_names, (MESH_WORD, task), drawn.seed, drawn.scale, settings
         )
-        seen, holds = part_holds(named, geometry, parts, read_tasks()[task])
+        known = read_tasks()[task]
+        seen, holds = part_holds(named, geometry, parts, known, params.segmentation)
         found.append(TaskContacts(task, holds, map_contacts(seen, holds) if holds else None))
     return Inspection(geometry, drawn, parts, mass_given, tuple(found))
 

@@ -1,23 +1,20 @@
-"""Study: do parts that were found in an object's shape help to plan grasps as people would grasp
-it?
+"""Study: do parts that were found in an object's shape help to plan grasps as people would?
 
 A scan whose true roles are known is planned twice, with all grips and equally many sessions: where
-people
-hold the parts that its shape shows, and anywhere. A rule over the true roles then judges the valid
-grasps.
+people hold the parts that its shape shows, and anywhere. A rule over the true roles then judges the
+valid grasps.
 """
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 import pandas as pd
 import pandera.pandas as pa
 from numpy.typing import NDArray
-from scipy.spatial import cKDTree
 
 from grasptypes.contact_maps.contact_map import MapTask
 from grasptypes.hands import configuration
@@ -31,6 +28,8 @@ from grasptypes.planning.plan_contacts import PlanContacts, grips_of, hold_parts
 from grasptypes.planning.sessions import PlanningContext, plan_sessions
 from grasptypes.segmentation.known_parts import known_parts
 from grasptypes.segmentation.part_holds import part_holds
+from grasptypes.segmentation.true_roles import TrueRoles
+from grasptypes.settings.commands import PartPlanSettings
 from grasptypes.settings.holds import TouchSettings
 from grasptypes.settings.roles import PartRole
 from grasptypes.settings.tasks import Task, read_tasks
@@ -54,7 +53,7 @@ PART_PLAN_SCHEMA = pa.DataFrameSchema(
             int, COUNT, description="valid, without contact on what is hazardous or must stay free"
         ),
         "handle_free": pa.Column(
-            int, COUNT, description="valid, with at most a third of the contact on a handle"
+            int, COUNT, description="valid, and most of the contact leaves handles free"
         ),
         "accepted": pa.Column(int, COUNT, description="held and clear"),
     },
@@ -63,8 +62,11 @@ PART_PLAN_SCHEMA = pa.DataFrameSchema(
     unique=["object", "task", "parts"],
 )
 SHARE = pa.Check.in_range(0, 1)
+# The sets of scans, and how the names of the objects of one of them begin.
+CONTACTDB, YCB = SETS = ("contactdb", "ycb")
 GAIN_SCHEMA = pa.DataFrameSchema(
     {
+        "scans": pa.Column(str, pa.Check.isin(SETS)),
         "task": pa.Column(str),
         "parts": pa.Column(str, pa.Check.isin((FOUND, ANYWHERE))),
         "held": pa.Column(float, SHARE, description="share of the valid grasps"),
@@ -74,34 +76,15 @@ GAIN_SCHEMA = pa.DataFrameSchema(
         "valid": pa.Column(float, SHARE, description="share of the sessions"),
         "tests_per_accepted": pa.Column(float, nullable=True),
         "gain": pa.Column(float, description="of the accepted share, mean over objects"),
-        "error": pa.Column(float, description="standard error of the gain over objects"),
+        "error": pa.Column(
+            float, nullable=True, description="standard error of the gain over objects"
+        ),
     },
     strict=True,
     ordered=True,
 )
 # Roles that are made for the hand, so that a receiver wants them.
 HANDLES = ("handle", "bail", "strap")
-# Contact of less than this share of the touching hand does not count: points beside an edge.
-TRACE = 0.05
-COVERED = 1 / 3
-
-
-@dataclass(frozen=True)
-class TrueRoles:
-    """Points (N, 3) on an object (its frame, metres), and the role of each, (N,)."""
-
-    points_m: Array
-    roles: Sequence[PartRole]
-
-    def contact_shares(self, touching_m: Array) -> list[tuple[PartRole, float]]:
-        """The roles that points of a hand (n, 3) touch, with their shares of these points."""
-        nearest = cKDTree(self.points_m).query(touching_m)[1]
-        found: dict[str, tuple[PartRole, int]] = {}
-        for index in nearest:
-            part = self.roles[int(index)]
-            known = found.get(part.role, (part, 0))
-            found[part.role] = known[0], known[1] + 1
-        return [(part, count / len(touching_m)) for part, count in found.values()]
 
 
 def study_plans(
@@ -109,12 +92,13 @@ def study_plans(
 ) -> list[dict[str, Any]]:
     """The rows of a scan and a task, with and without parts; see `PART_PLAN_SCHEMA`."""
     params, grips = context.params, grips_of(GRASP_TYPES[:-1])
-    settings = params.contact_maps.changed(sessions=params.plan.comparison.sessions)
+    settings = params.contact_maps.changed(sessions=params.plan.parts.sessions)
     drawn = MapTask.of_object(context.geometry, (context.word, context.task), params.seed, settings)
     task = read_tasks()[context.task]
     parts = known_parts(context.geometry, drawn.points, params.segmentation)
     anywhere = plan_contacts(drawn, None, grips, context.geometry.source)
-    found = hold_parts(*part_holds(drawn, context.geometry, parts, task), grips) or anywhere
+    seen = part_holds(drawn, context.geometry, parts, task, params.segmentation)
+    found = hold_parts(*seen, grips) or anywhere
     return [
         {
             "object": context.geometry.name,
@@ -136,13 +120,14 @@ def _judged(
     """Plan with given contacts, and count the grasps that the rule accepts."""
     attempts, grasps = plan_sessions(context, contacts, GRASP_TYPES[:-1])
     hand, grid = load_hand(context.hand), context.geometry.distance_grid
+    settings = context.params.plan.parts
     verdicts = [
-        accepts(true.contact_shares(_touching(hand, grid, numbers, touch)), task)
+        accepts(contact_shares(true.at(*_touching(hand, grid, numbers, touch))), task, settings)
         for numbers in grasps[grasps.valid].hand_configuration
     ]
     held, clear, free = np.array(verdicts, dtype=bool).reshape(-1, 3).T
     return {
-        "sessions": context.params.plan.comparison.sessions,
+        "sessions": settings.sessions,
         "tests": tests(attempts),
         "valid": int(grasps.valid.sum()),
         "held": int(held.sum()),
@@ -152,13 +137,22 @@ def _judged(
     }
 
 
-def accepts(shares: Sequence[tuple[PartRole, float]], task: Task) -> tuple[bool, bool, bool]:
+def contact_shares(touched: Sequence[PartRole]) -> list[tuple[PartRole, float]]:
+    """Each of the roles that points of a hand touch, with its share of these points."""
+    of_role = {part.role: part for part in touched}
+    count = Counter(part.role for part in touched)
+    return [(part, count[role] / len(touched)) for role, part in of_role.items()]
+
+
+def accepts(
+    shares: Sequence[tuple[PartRole, float]], task: Task, settings: PartPlanSettings
+) -> tuple[bool, bool, bool]:
     """Whether a grasp with these shares of contact is where people hold an object for a task.
 
     Returns:
         whether most of the contact is on roles that people touch; whether nothing is on roles that
-        must
-        stay free, nor, if the task minds, on hazardous parts; whether handles are left free.
+        must stay free, nor on hazardous parts that people do not touch; whether handles are left
+        free.
     """
     held = sum(share for part, share in shares if task.touched.get(part.role, 0.0) > 0)
     wrong = sum(
@@ -167,32 +161,33 @@ def accepts(shares: Sequence[tuple[PartRole, float]], task: Task) -> tuple[bool,
         if part.role in task.free or (part.hazardous and part.role not in task.touched)
     )
     on_handle = sum(share for part, share in shares if part.role in HANDLES)
-    return held > 1 / 2, wrong <= TRACE, on_handle <= COVERED
+    return held > 1 / 2, wrong <= settings.trace, on_handle <= settings.covered
 
 
 def _touching(
     hand: Hand, grid: DistanceGrid, numbers: NDArray[np.float64], touch: TouchSettings
-) -> Array:
-    """Points (n, 3) of the hand's surface that touch the object, in its frame; at least the
-    nearest one."""
+) -> tuple[Array, Array]:
+    """Points (n, 3) of the hand's surface that touch the object, in its frame, with the normals
+    that the object has there; at least the nearest one."""
     posed = configuration.unpack(np.asarray(numbers))
     poses = posed.T_object_hand @ hand.link_poses(hand.couple(posed.dofs))
     surface = surface_points(hand, touch.hand_spacing_m)
     T = poses[surface.link_index]
     points = np.einsum("pij,pj->pi", T[:, :3, :3], surface.points_m) + T[:, :3, 3]
-    distance_m = grid.distance(points)
-    return np.asarray(points[distance_m <= max(touch.touch_m, float(distance_m.min()))])
+    distance_m, outward = grid.distance_and_gradient(points)
+    near = distance_m <= max(touch.touch_m, float(distance_m.min()))
+    return points[near], outward[near]
 
 
 def summary(table: pd.DataFrame) -> pd.DataFrame:
-    """One row per task and `parts`: shares, tests per accepted grasp, and the gain over the other
-    way.
+    """One row per set of scans, task and `parts`: shares, cost of an accepted grasp, and gain.
 
     The gain is that of the share of valid grasps that are accepted, with its standard error over
     objects.
     """
     rows = []
-    for task, of_task in table.groupby("task", sort=False):
+    sets = np.where(table.object.str.startswith(f"{YCB}_"), YCB, CONTACTDB)
+    for (scans, task), of_task in table.groupby([sets, "task"], sort=False):
         share = of_task.assign(share=of_task.accepted / of_task.valid.clip(lower=1)).pivot(
             index="object", columns="parts", values="share"
         )
@@ -203,6 +198,7 @@ def summary(table: pd.DataFrame) -> pd.DataFrame:
             ].sum()
             rows.append(
                 {
+                    "scans": scans,
                     "task": task,
                     "parts": parts,
                     **{

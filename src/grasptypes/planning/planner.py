@@ -153,8 +153,10 @@ class Planner:
         drawn = MapTask.of_object(object, name, seed_number, settings)
         grips, parts, contacts = grips_of(request.types), None, None
         if contact_map is None:
-            parts = known_parts(object, drawn.points, self.params.segmentation, roles)
-            contacts = hold_parts(*part_holds(drawn, object, parts, read_tasks()[task]), grips)
+            finding = self.params.segmentation
+            parts = known_parts(object, drawn.points, finding, roles)
+            held_parts = part_holds(drawn, object, parts, read_tasks()[task], finding)
+            contacts = hold_parts(*held_parts, grips)
         held = contacts is not None
         contacts = contacts or plan_contacts(drawn, contact_map, grips, source)
         if parts:

@@ -1,9 +1,7 @@
-"""What a point on an object looks like to one who does not know the object: numbers from its shape
-alone.
+"""What a point looks like to one who does not know the object: numbers from its shape alone.
 
-None of them depends on where the object lies or how it is turned, and lengths count both in
-metres, since hands have a
-size, and relative to the object's length.
+None of them depends on where the object lies or how it is turned. Lengths count both in metres,
+since hands have a size, and relative to the object's length.
 """
 
 from __future__ import annotations
@@ -68,8 +66,7 @@ class Cloud:
 def describe_points(
     cloud: Cloud, points_m: Array, normals: Array, settings: DescriptorSettings
 ) -> NDArray[np.float32]:
-    """Descriptors (n, D) of points (n, 3) with normals (n, 3), in the frame in which the cloud was
-    given."""
+    """Descriptors (n, D) of points (n, 3) with normals (n, 3), in the frame of the given cloud."""
     points, normals = (points_m - cloud.middle_m) @ cloud.axes.T, normals @ cloud.axes.T
     distance = cdist(points, cloud.points_m)
     # Of the vectors to the cloud's points, what lies along the normal, and what lies beside it.
@@ -90,12 +87,10 @@ def describe_points(
 
 
 def _balls(distance: Array, height: Array, spacing_m: float, length_m: float) -> Array:
-    """Logarithms (n, 4) of the radii of the largest balls that touch the surface at a point,
-    inside and outside.
+    """Logarithms (n, 4) of the radii of the largest balls inside and outside, touching at a point.
 
     A ball that is tangent to the surface reaches another point if its radius is d^2 / (2 h): the
-    medial axis
-    transform. Points nearer than the spacing are on the same face.
+    medial axis transform. Points nearer than the spacing are on the same face.
     """
     radii = []
     for side in (-height, height):
@@ -125,8 +120,7 @@ def _spin_image(beside: Array, height: Array, reach_m: float, bins: int) -> Arra
 
 
 def _spread(cloud: Cloud, points: Array, normals: Array, distance: Array, radius_m: float) -> Array:
-    """How the surface within a radius of a point spreads (n, 5): extents, agreement of normals,
-    area."""
+    """How the surface within a radius spreads (n, 5): extents, agreement of normals, area."""
     near = (distance < radius_m).astype(float)
     count = np.maximum(near.sum(axis=1), 1)
     mean = near @ cloud.points_m / count[:, None]
@@ -141,8 +135,7 @@ def _spread(cloud: Cloud, points: Array, normals: Array, distance: Array, radius
 
 
 def _place(cloud: Cloud, points: Array, normals: Array) -> Array:
-    """Where a point is in the object (n, 11): along the axes, from the middle, and which way it
-    faces."""
+    """Where a point is in the object (n, 11): along the axes, and which way it faces."""
     half = np.clip(cloud.extents_m / 2, SMALLEST_M, None)
     shares = points / half
     radius = np.linalg.norm(points, axis=1)
@@ -154,8 +147,7 @@ def _place(cloud: Cloud, points: Array, normals: Array) -> Array:
 
 
 def _profile(cloud: Cloud, points: Array, stations: int) -> Array:
-    """The object's width at stations along its length, from the end nearest to a point (n, 2
-    stations)."""
+    """The object's width at stations along it, from the end nearest to a point (n, 2 stations)."""
     along = (cloud.points_m[:, 0] / cloud.length_m + 0.5) * stations
     station = np.clip(along.astype(int), 0, stations - 1)
     wide = np.linalg.norm(cloud.points_m[:, 1:], axis=1)

@@ -1,9 +1,8 @@
-"""How well roles are recognised: on families of kinds that were left out, and on scans of known
-objects."""
+"""How well roles are recognised: on families of kinds that were left out, and on scans."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -11,25 +10,29 @@ import pandas as pd
 import pandera.pandas as pa
 import trimesh
 from numpy.typing import NDArray
-from scipy.spatial import cKDTree
 
 from grasptypes.kinds.names import shape_of
-from grasptypes.objects.object_files import Surface
-from grasptypes.segmentation.parts import Parts, describe_surface, described, find_parts
-from grasptypes.segmentation.samples import RoleSamples
-from grasptypes.segmentation.training import family_folds, train_network
+from grasptypes.segmentation.network import RoleModel, RoleNetwork
+from grasptypes.segmentation.partial_views import partial_views
+from grasptypes.segmentation.parts import (
+    Parts,
+    describe_surface,
+    described,
+    find_parts,
+    likely_parts,
+)
+from grasptypes.segmentation.samples import RoleSamples, sample_evenly
+from grasptypes.segmentation.true_roles import TrueRoles
 from grasptypes.settings.holds import read_hold_table
 from grasptypes.settings.roles import read_roles
 from grasptypes.settings.segmentation import SegmentationSettings
 
-Array = NDArray[np.float64]
-
-# Weight of a difference between normals against metres: the other side of a wall is far away.
-NORMAL_M = 0.003
+NETWORK_METHOD, FOREST_METHOD = METHODS = ("network", "forest")
 SHARE = pa.Check.in_range(0, 1)
 KIND_SCHEMA = pa.DataFrameSchema(
     {
-        "kind": pa.Column(str, unique=True),
+        "method": pa.Column(str, pa.Check.isin(METHODS)),
+        "kind": pa.Column(str),
         "family": pa.Column(str, description="kinds that are left out together"),
         "accuracy": pa.Column(float, SHARE, description="share of the surface with the right role"),
         "pointwise": pa.Column(float, SHARE, description="the same before points listen to others"),
@@ -39,9 +42,11 @@ KIND_SCHEMA = pa.DataFrameSchema(
     },
     strict=True,
     ordered=True,
+    unique=["method", "kind"],
 )
 ROLE_SCHEMA = pa.DataFrameSchema(
     {
+        "method": pa.Column(str, pa.Check.isin(METHODS)),
         "role": pa.Column(str),
         "area_share": pa.Column(float, SHARE, description="of the surfaces of all shapes"),
         "recognised": pa.Column(float, SHARE, description="share of the role's surface"),
@@ -49,6 +54,7 @@ ROLE_SCHEMA = pa.DataFrameSchema(
     },
     strict=True,
     ordered=True,
+    unique=["method", "role"],
 )
 FOUND_SCHEMA = pa.DataFrameSchema(
     {
@@ -63,6 +69,11 @@ SCAN_SCHEMA = pa.DataFrameSchema(
         "object": pa.Column(str, unique=True),
         "accuracy": pa.Column(float, SHARE, description="share of the surface with the right role"),
         "same_holds": pa.Column(float, SHARE),
+        "one_side": pa.Column(
+            float,
+            SHARE,
+            description="accuracy if only points visible from a side are known; mean of four",
+        ),
         "found": pa.Column(str, description="parts that were found, and how sure they are"),
     },
     strict=True,
@@ -86,25 +97,34 @@ class FoundRoles:
     smoothed: NDArray[np.intp]
 
 
-def held_out_roles(samples: RoleSamples, settings: SegmentationSettings, seed: int) -> FoundRoles:
-    """Roles of the first shape of each kind, by networks that have seen none of its family."""
-    folds = family_folds(samples.families, settings.training.folds, ("folds", seed))
+def held_out_roles(
+    samples: RoleSamples,
+    folds: NDArray[np.intp],
+    learn: Callable[[int], RoleModel],
+    settings: SegmentationSettings,
+) -> FoundRoles:
+    """Roles of the first shape of each kind, by models that have seen none of its family.
+
+    Args:
+        folds: (S,) fold of each shape.
+        learn: gives the model of a fold, which has seen all others; one is kept at a time.
+    """
     kinds = np.array([shape_of(name)[0] for name in samples.shapes])
-    first = np.unique(kinds, return_index=True)[1]
-    found = {}
-    for fold in range(settings.training.folds):
-        seen = np.flatnonzero(folds != fold)
-        network = train_network(samples, seen, settings.training, ("fold", fold, seed))
-        for row in first[folds[first] == fold]:
-            cloud = (
-                samples.points_m[row].astype(np.float64),
-                samples.normals[row].astype(np.float64),
+    rows = np.unique(kinds, return_index=True)[1]
+    rows = rows[np.lexsort([rows, folds[rows]])]
+    pointwise, smoothed = [], []
+    for fold in np.unique(folds[rows]):
+        model = learn(int(fold))
+        for row in rows[folds[rows] == fold]:
+            points_m, normals = (
+                each[row].astype(np.float64) for each in (samples.points_m, samples.normals)
             )
-            parts = find_parts(*cloud, settings, network)
-            chances = network.probabilities(describe_surface(*cloud, settings))
-            found[row] = chances.argmax(axis=1), role_index(parts)
-    rows = np.array(sorted(found))
-    return FoundRoles(rows, *(np.stack([found[row][k] for row in rows]) for k in (0, 1)))
+            chances = model.probabilities(describe_surface(points_m, normals, settings))
+            parts = likely_parts(points_m, normals, chances, model.roles, settings)
+            pointwise.append(chances.argmax(axis=1))
+            smoothed.append(role_index(parts))
+    order = np.argsort(rows)
+    return FoundRoles(rows[order], np.stack(pointwise)[order], np.stack(smoothed)[order])
 
 
 def role_index(parts: Parts) -> NDArray[np.intp]:
@@ -116,8 +136,10 @@ def role_index(parts: Parts) -> NDArray[np.intp]:
 
 
 def hold_groups() -> NDArray[np.intp]:
-    """Group (R,) of holds of each role of roles.yaml: roles that people hold in the same way; -1
-    if nobody does."""
+    """Group (R,) of each role of roles.yaml: roles that people hold in the same way.
+
+    It is -1 for roles that nobody holds.
+    """
     groups = read_hold_table().groups.values()
     return np.array(
         [
@@ -127,11 +149,12 @@ def hold_groups() -> NDArray[np.intp]:
     )
 
 
-def kind_table(samples: RoleSamples, found: FoundRoles) -> pd.DataFrame:
+def kind_table(method: str, samples: RoleSamples, found: FoundRoles) -> pd.DataFrame:
     """One row per kind, see `KIND_SCHEMA`."""
     true, group = samples.roles[found.rows], hold_groups()
     return pd.DataFrame(
         {
+            "method": method,
             "kind": [shape_of(name)[0] for name in samples.shapes[found.rows]],
             "family": samples.families[found.rows],
             "accuracy": (found.smoothed == true).mean(axis=1),
@@ -141,7 +164,7 @@ def kind_table(samples: RoleSamples, found: FoundRoles) -> pd.DataFrame:
     ).round(4)
 
 
-def role_table(samples: RoleSamples, found: FoundRoles) -> pd.DataFrame:
+def role_table(method: str, samples: RoleSamples, found: FoundRoles) -> pd.DataFrame:
     """One row per role that occurs, see `ROLE_SCHEMA`."""
     true, names, rows = samples.roles[found.rows], list(read_roles().roles), []
     for number in np.unique(true):
@@ -151,6 +174,7 @@ def role_table(samples: RoleSamples, found: FoundRoles) -> pd.DataFrame:
         others[number] = 0
         rows.append(
             {
+                "method": method,
                 "role": names[number],
                 "area_share": there.mean(),
                 "recognised": answers[number] / there.sum(),
@@ -160,28 +184,26 @@ def role_table(samples: RoleSamples, found: FoundRoles) -> pd.DataFrame:
     return pd.DataFrame(rows).round(4)
 
 
-def transferred_roles(
-    surface: Surface, roles: Sequence[int], points_m: Array, normals: Array
-) -> NDArray[np.intp]:
-    """Role (N,) of points (N, 3) near a surface: that of the nearest vertex that faces the same
-    way.
-
-    Args:
-        roles: role of each part of the surface.
-    """
-    turned = trimesh.Trimesh(surface.vertices, surface.faces, process=False).vertex_normals
-    tree = cKDTree(np.hstack([surface.vertices, NORMAL_M * turned]))
-    nearest = tree.query(np.hstack([points_m, NORMAL_M * normals]))[1]
-    of_point: NDArray[np.intp] = np.asarray(roles)[surface.part_index[nearest]]
-    return of_point
-
-
-def scan_row(name: str, parts: Parts, true: NDArray[np.intp]) -> dict[str, object]:
-    """A row of `SCAN_SCHEMA`."""
-    answer, group = role_index(parts), hold_groups()
+def scan_row(
+    mesh: trimesh.Trimesh,
+    name: str,
+    true: TrueRoles,
+    settings: SegmentationSettings,
+    network: RoleNetwork,
+) -> dict[str, object]:
+    """A row of `SCAN_SCHEMA`, for a scan in metres."""
+    points_m, face = sample_evenly(mesh, settings.descriptors.points, name)
+    normals = mesh.face_normals[face]
+    parts = find_parts(points_m, normals, settings, network)
+    answer, known, group = role_index(parts), true.index_at(points_m, normals), hold_groups()
+    from_sides = [
+        (role_index(find_parts(*seen, settings, network)) == true.index_at(*seen)).mean()
+        for seen in partial_views(mesh, settings.descriptors.points, name)
+    ]
     return {
         "object": name,
-        "accuracy": round(float((answer == true).mean()), 4),
-        "same_holds": round(float((group[answer] == group[true]).mean()), 4),
+        "accuracy": round(float((answer == known).mean()), 4),
+        "same_holds": round(float((group[answer] == group[known]).mean()), 4),
+        "one_side": round(float(np.mean(from_sides)), 4),
         "found": described(parts),
     }

@@ -16,19 +16,18 @@ from grasptypes.renders.scene import load_parts
 from grasptypes.segmentation.parts import Parts, find_parts
 from grasptypes.segmentation.role_files import RoleTable
 from grasptypes.settings.roles import PartRole, read_roles
-from grasptypes.settings.segmentation import SegmentationSettings
+from grasptypes.settings.segmentation import PartSettings
 
 # Where roles come from; in plan.json and in what `inspect` prints.
 DESCRIBED, NAMED = "its description", "the names of its parts"
-# The part of all colours that a user does not list, and the largest difference between levels of
-# the same colour, after a texture or a renderer has rounded it.
-OTHER, SAME_COLOUR = "other", 12
+# The part of all colours that a user does not list.
+OTHER = "other"
 
 
 def known_parts(
     geometry: ObjectGeometry,
     points: SurfacePoints,
-    settings: SegmentationSettings,
+    settings: PartSettings,
     said: RoleTable | None = None,
 ) -> Parts:
     """The parts of an object at points on its surface.
@@ -42,7 +41,7 @@ def known_parts(
         InputError: the user speaks of a part that the object does not have.
     """
     if said and said.by_colour:
-        return _coloured_parts(geometry, points, said)
+        return _coloured_parts(geometry, points, said, settings.same_colour)
     names = [str(name) for name in geometry.surface.part_names]
     if said:
         for name in said.roles:
@@ -65,8 +64,14 @@ def _named_parts(
     return Parts(np.asarray(points.part_index), known, dict.fromkeys(names, 1.0), basis)
 
 
-def _coloured_parts(geometry: ObjectGeometry, points: SurfacePoints, said: RoleTable) -> Parts:
-    """Parts by the colours of the object's file; other colours have no role."""
+def _coloured_parts(
+    geometry: ObjectGeometry, points: SurfacePoints, said: RoleTable, same: int
+) -> Parts:
+    """Parts by the colours of the object's file; other colours have no role.
+
+    Args:
+        same: largest difference between levels of the same colour.
+    """
     seen = load_parts(geometry.visual)
     linear = [
         part.base_colour * (np.ones_like(part.vertices) if part.tints is None else part.tints)
@@ -77,7 +82,7 @@ def _coloured_parts(geometry: ObjectGeometry, points: SurfacePoints, said: RoleT
     levels = 255 * encoded(np.clip(np.concatenate(linear), 0, 1))[nearest]
     listed = np.array([[int(name[at : at + 2], 16) for at in (1, 3, 5)] for name in said.roles])
     difference = np.abs(levels[:, None] - listed).max(axis=2)
-    index = np.where(difference.min(axis=1) <= SAME_COLOUR, difference.argmin(axis=1), len(listed))
+    index = np.where(difference.min(axis=1) <= same, difference.argmin(axis=1), len(listed))
     for number, name in enumerate(said.roles):
         if not (index == number).any():
             raise InputError(said.path, name, f"nothing on {geometry.name} has this colour")
@@ -88,7 +93,6 @@ def _coloured_parts(geometry: ObjectGeometry, points: SurfacePoints, said: RoleT
 
 
 def role_in_name(name: str) -> PartRole | None:
-    """The role that a part's name states, such as handle, Handle.001 or blade_2; None if it states
-    none."""
+    """The role that a part's name states, such as handle, Handle.001 or blade_2, if any."""
     word = re.sub(r"[._ -]*\d*$", "", name).lower().replace(" ", "_").replace("-", "_")
     return PartRole.check({"role": word}) if word in read_roles().roles else None

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
-from typing import ClassVar
+from typing import ClassVar, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,10 +16,20 @@ from grasptypes.files import read_npz, write_npz
 from grasptypes.segmentation import NETWORK
 
 
+class RoleModel(Protocol):
+    """What gives each point of an object probabilities of roles."""
+
+    @property
+    def roles(self) -> tuple[str, ...]:
+        """Names (R,) of the roles."""
+
+    def probabilities(self, descriptors: NDArray[np.float32]) -> NDArray[np.float64]:
+        """Probabilities (N, R) of the roles of the points of an object, with descriptors (N, D)."""
+
+
 @dataclass(frozen=True)
 class RoleNetwork:
-    """Layers that see each point, then the point beside the mean and the maximum over all points
-    of the object.
+    """Layers that see each point, then the point beside mean and maximum over the whole object.
 
     Attributes:
         roles: (R,) names of the outputs.

@@ -15,11 +15,8 @@ from grasptypes.objects.object_geometry import ObjectGeometry
 from grasptypes.segmentation.parts import Parts
 from grasptypes.settings.holds import HoldTable, read_hold_table
 from grasptypes.settings.roles import PartRole
+from grasptypes.settings.segmentation import PartSettings
 from grasptypes.settings.tasks import Task
-
-# A part smaller than this share of the largest one with its role is more likely a mistake than a
-# second handle.
-MINOR_SHARE = 0.3
 
 
 def part_holds(
@@ -27,6 +24,7 @@ def part_holds(
     geometry: ObjectGeometry,
     parts: Parts,
     task: Task,
+    settings: PartSettings,
     table: HoldTable | None = None,
 ) -> tuple[MapTask, list[Hold]]:
     """The task of a contact map with these parts, and the holds for it; uncertain parts get less
@@ -49,7 +47,7 @@ def part_holds(
         drawn.points.points_m,
         drawn.points.normals,
         parts.part_index,
-        _without_crumbs(parts),
+        _without_crumbs(parts, settings.minor_share),
         geometry.properties.mass_kg,
         np.array(geometry.properties.centre_of_mass_m),
     )
@@ -62,7 +60,7 @@ def part_holds(
     return seen, [replace(hold, probability=hold.probability / total) for hold in sure]
 
 
-def _without_crumbs(parts: Parts) -> Mapping[str, PartRole | None]:
+def _without_crumbs(parts: Parts, minor_share: float) -> Mapping[str, PartRole | None]:
     """The roles without those of small parts beside a large one.
 
     Roles that somebody stated stay, and those that warn the hand.
@@ -80,7 +78,7 @@ def _without_crumbs(parts: Parts) -> Mapping[str, PartRole | None]:
         and (
             parts.confidence[name] == 1
             or part.hazardous
-            or sizes[name] >= MINOR_SHARE * largest[part.role]
+            or sizes[name] >= minor_share * largest[part.role]
         )
         else None
         for name, part in parts.roles.items()

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -13,9 +13,9 @@ from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
 
 from grasptypes.segmentation.descriptors import Cloud, describe_points
-from grasptypes.segmentation.network import RoleNetwork, trained_network
+from grasptypes.segmentation.network import RoleModel, trained_network
 from grasptypes.settings.roles import PartRole
-from grasptypes.settings.segmentation import SegmentationSettings
+from grasptypes.settings.segmentation import PartSettings
 
 Array = NDArray[np.float64]
 
@@ -71,8 +71,8 @@ def described(parts: Parts) -> str:
 def find_parts(
     points_m: Array,
     normals: Array,
-    settings: SegmentationSettings,
-    network: RoleNetwork | None = None,
+    settings: PartSettings,
+    network: RoleModel | None = None,
 ) -> Parts:
     """Parts of an object from its shape.
 
@@ -82,6 +82,13 @@ def find_parts(
     """
     network = network or trained_network()
     pointwise = network.probabilities(describe_surface(points_m, normals, settings))
+    return likely_parts(points_m, normals, pointwise, network.roles, settings)
+
+
+def likely_parts(
+    points_m: Array, normals: Array, pointwise: Array, names: Sequence[str], settings: PartSettings
+) -> Parts:
+    """Parts of an object whose points (N, 3) have probabilities (N, R) of the named roles."""
     weights = _neighbours(points_m, normals, settings.neighbours)
     probability = smoothed(pointwise, weights, settings)
     index = _components(probability.argmax(axis=1), points_m, weights, settings.smallest_share)
@@ -91,7 +98,7 @@ def find_parts(
     sizes = np.bincount(index)
     for place, part in enumerate(np.argsort(-sizes, kind="stable")):
         mean = probability[index == part].mean(axis=0)
-        role = network.roles[int(mean.argmax())]
+        role = names[int(mean.argmax())]
         taken = sum(known is not None and known.role == role for known in roles.values())
         name = f"{role}_{taken + 1}" if taken else role
         roles[name], confidence[name] = PartRole.check({"role": role}), float(mean.max())
@@ -100,7 +107,7 @@ def find_parts(
 
 
 def describe_surface(
-    points_m: Array, normals: Array, settings: SegmentationSettings
+    points_m: Array, normals: Array, settings: PartSettings
 ) -> NDArray[np.float32]:
     """Descriptors (N, D) of all points (N, 3) of an object."""
     cloud = Cloud.of_points(points_m, normals, settings.descriptors.points)
@@ -110,7 +117,7 @@ def describe_surface(
     )
 
 
-def smoothed(probability: Array, weights: csr_array, settings: SegmentationSettings) -> Array:
+def smoothed(probability: Array, weights: csr_array, settings: PartSettings) -> Array:
     """Probabilities (N, R) after each point has listened to its neighbours, again and again.
 
     Args:
@@ -125,8 +132,7 @@ def smoothed(probability: Array, weights: csr_array, settings: SegmentationSetti
 
 
 def _neighbours(points_m: Array, normals: Array, count: int) -> csr_array:
-    """Symmetric weights (N, N) of the nearest points; across an edge, or through a wall, they
-    count less."""
+    """Symmetric weights (N, N) of the nearest points, lower across an edge or through a wall."""
     distance, near = cKDTree(points_m).query(points_m, count + 1)
     distance, near = distance[:, 1:], near[:, 1:]
     agreement = np.einsum("nkj,nj->nk", normals[near], normals)

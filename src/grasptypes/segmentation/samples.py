@@ -59,6 +59,13 @@ def read_samples(paths: Sequence[str | Path]) -> RoleSamples:
     return RoleSamples(**{name: np.concatenate([file[name] for file in files]) for name in names})
 
 
+def family_weights(families: NDArray[np.str_]) -> NDArray[np.float32]:
+    """Weights (n,) of shapes, with mean 1: a family of four times as many counts twice as much."""
+    _, family, count = np.unique(families, return_inverse=True, return_counts=True)
+    weights = 1 / np.sqrt(count[family])
+    return np.asarray(weights / weights.mean(), dtype=np.float32)
+
+
 def sample_shapes(
     names: Sequence[str], described: DescriptorSettings, settings: RoleSampleSettings
 ) -> RoleSamples:

@@ -1,5 +1,4 @@
-"""Training of the network that names roles, and its test on families of kinds that it has not
-seen."""
+"""Training of the network that names roles."""
 
 from __future__ import annotations
 
@@ -13,7 +12,7 @@ from torch import Tensor, nn
 
 from grasptypes.seeds import rng, seed
 from grasptypes.segmentation.network import RoleNetwork
-from grasptypes.segmentation.samples import RoleSamples
+from grasptypes.segmentation.samples import RoleSamples, family_weights
 from grasptypes.settings.roles import read_roles
 from grasptypes.settings.segmentation import RoleTrainingSettings
 
@@ -47,8 +46,7 @@ def train_network(
     settings: RoleTrainingSettings,
     key: Sequence[str | int],
 ) -> RoleNetwork:
-    """A network trained on some of the shapes; families of many kinds count less than in
-    proportion.
+    """A network trained on some of the shapes; large families count less than in proportion.
 
     Args:
         rows: (n,) shapes to learn from.
@@ -60,7 +58,8 @@ def train_network(
     limit = RoleNetwork.LIMIT
     scaled = torch.from_numpy(np.clip((inputs - centre) / scale, -limit, limit))
     known = samples.roles[rows, : inputs.shape[1]]
-    targets, weights = torch.from_numpy(known), _weights(samples.families[rows])
+    weights = torch.from_numpy(family_weights(samples.families[rows]))
+    targets = torch.from_numpy(known)
     roles = tuple(read_roles().roles)
     torch.manual_seed(seed("role network", *key))
     layers = _Layers(inputs.shape[2], len(roles), settings.width, settings.dropout)
@@ -74,13 +73,6 @@ def train_network(
         tuple(layer.weight.detach().numpy().T.copy() for layer in tensors),
         tuple(layer.bias.detach().numpy().copy() for layer in tensors),
     )
-
-
-def _weights(families: NDArray[np.str_]) -> Tensor:
-    """Weights (n,) with mean 1: a family of four times as many shapes counts twice as much."""
-    _, family, count = np.unique(families, return_inverse=True, return_counts=True)
-    weights = 1 / np.sqrt(count[family])
-    return torch.from_numpy((weights / weights.mean()).astype(np.float32))
 
 
 def _role_weights(targets: Tensor, power: float) -> Tensor:
@@ -129,13 +121,3 @@ def _descend(
             total += float(loss.detach())
         LOGGER.info("epoch %d of %d: loss %.4f", epoch + 1, settings.epochs, total / steps)
     layers.eval()
-
-
-def family_folds(
-    families: NDArray[np.str_], count: int, key: Sequence[str | int]
-) -> NDArray[np.intp]:
-    """Fold (n,) of each shape, 0 to count - 1; relatives are in the same one."""
-    names = np.unique(families)
-    fold = np.empty(len(names), dtype=np.intp)
-    fold[rng("family folds", *key).permutation(len(names))] = np.arange(len(names)) % count
-    return fold[np.searchsorted(names, families)]

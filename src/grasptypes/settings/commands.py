@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Literal
 
-from grasptypes.settings.base import Between, Settings, setting
+from grasptypes.settings.base import Between, Settings, Share, setting
 
 
 class PhotoLimits(Settings):
@@ -38,6 +38,14 @@ class PlanComparisonSettings(Settings):
     )
 
 
+class PartPlanSettings(Settings):
+    """Study of planning with and without the parts that a shape shows."""
+
+    sessions: int = setting("sessions per object, task and way", ge=1, le=1000)
+    trace: Share = setting("share of the contact that does not count as touching a part")
+    covered: Share = setting("share of the contact on handles that leaves them free for others")
+
+
 class PlanSettings(Settings):
     """Defaults and limits of `grasptypes plan`."""
 
@@ -46,6 +54,7 @@ class PlanSettings(Settings):
     max_mass_kg: float = setting("largest mass of an object", gt=0)
     shown: int = setting("number of grasps in the image", ge=1, le=100)
     comparison: PlanComparisonSettings
+    parts: PartPlanSettings
 
 
 class TrackingSettings(Settings):

@@ -6,7 +6,7 @@ from typing import Annotated
 
 from pydantic import Field
 
-from grasptypes.settings.base import Many, Settings, setting
+from grasptypes.settings.base import Many, Settings, Share, setting
 
 
 class DescriptorSettings(Settings):
@@ -48,7 +48,15 @@ class RoleTrainingSettings(Settings):
     folds: int = setting("groups of families that are held out in turn", ge=2, le=20)
 
 
-class SegmentationSettings(Settings):
+class ForestSettings(Settings):
+    """The random forest that the network is compared with."""
+
+    trees: int = setting("number of trees", ge=1, le=10000)
+    points: int = setting("points of each shape from which it learns", ge=1, le=8192)
+    least_points: int = setting("points in the smallest leaf", ge=1, le=10000)
+
+
+class PartSettings(Settings):
     """Parts and roles of a mesh that names none."""
 
     descriptors: DescriptorSettings
@@ -56,5 +64,13 @@ class SegmentationSettings(Settings):
     smoothing_steps: int = setting("how often neighbours are listened to", ge=0, le=1000)
     own_share: float = setting("weight of a point itself against its neighbours", gt=0, le=1)
     smallest_share: float = setting("smallest part, as a share of the surface", ge=0, le=0.5)
+    minor_share: Share = setting("smallest part that is held, relative to others with its role")
+    same_colour: int = setting("largest difference between levels of the same colour", ge=0, le=255)
+
+
+class SegmentationSettings(PartSettings):
+    """The same, with how it is learned and tested."""
+
     samples: RoleSampleSettings
     training: RoleTrainingSettings
+    forest: ForestSettings

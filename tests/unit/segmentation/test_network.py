@@ -13,7 +13,7 @@ from grasptypes.segmentation import NETWORK
 from grasptypes.segmentation.network import read_network, trained_network
 from grasptypes.segmentation.parts import find_parts
 from grasptypes.segmentation.samples import sample_roles, sample_shapes
-from grasptypes.segmentation.training import family_folds, train_network
+from grasptypes.segmentation.training import train_network
 from grasptypes.settings.params import checkout_params
 from grasptypes.settings.roles import read_roles
 
@@ -50,14 +50,6 @@ def test_a_file_that_lacks_a_layer_is_no_network(tmp_path):
     write_npz(tmp_path / "network.npz", arrays)
     with pytest.raises(InputError, match=r"network\.npz: weights_2"):
         read_network(tmp_path / "network.npz")
-
-
-def test_relatives_are_left_out_together():
-    families = np.array(["cup", "knife", "cup", "ball", "spoon", "knife"])
-    folds = family_folds(families, 3, KEY)
-    assert set(folds) == {0, 1, 2}
-    assert folds[0] == folds[2]
-    assert folds[1] == folds[5]
 
 
 def test_the_network_of_the_package_knows_all_roles():

@@ -1,5 +1,4 @@
-"""Holds of parts that may be mistaken: doubt lowers a hold's probability, and crumbs are not
-held."""
+"""Holds of parts that may be mistaken: doubt lowers a probability, and crumbs are not held."""
 
 from dataclasses import replace
 from types import SimpleNamespace
@@ -42,11 +41,11 @@ def share_of(holds, part):
 def test_doubt_lowers_the_probability_of_a_hold():
     sure = {"handle": 1.0, "head": 1.0}
     drawn, parts = drawn_and_parts(sure)
-    seen, holds = part_holds(drawn, geometry(), parts, TASK)
+    seen, holds = part_holds(drawn, geometry(), parts, TASK, PARAMS.segmentation)
     assert seen.part_names == list(parts.roles)
     assert sum(hold.probability for hold in holds) == pytest.approx(1)
     drawn, doubtful = drawn_and_parts(sure | {"handle": 0.2})
-    rarely = part_holds(drawn, geometry(), doubtful, TASK)[1]
+    rarely = part_holds(drawn, geometry(), doubtful, TASK, PARAMS.segmentation)[1]
     assert 0 < share_of(rarely, "handle") < share_of(holds, "handle")
 
 
@@ -62,7 +61,7 @@ def with_a_small_second_handle(confidence):
 def test_a_crumb_beside_a_large_part_is_held_only_if_somebody_named_it():
     for confidence, held in ((0.8, False), (1.0, True)):
         drawn, crumbs = with_a_small_second_handle(confidence)
-        holds = part_holds(drawn, geometry(), crumbs, TASK)[1]
+        holds = part_holds(drawn, geometry(), crumbs, TASK, PARAMS.segmentation)[1]
         assert share_of(holds, "handle") > 0
         assert (share_of(holds, "handle_2") > 0) == held
 
@@ -70,4 +69,4 @@ def test_a_crumb_beside_a_large_part_is_held_only_if_somebody_named_it():
 def test_nobody_holds_parts_without_a_role():
     drawn, parts = drawn_and_parts({"handle": 1.0, "head": 1.0})
     nothing = replace(parts, roles=dict.fromkeys(parts.roles))
-    assert part_holds(drawn, geometry(), nothing, TASK)[1] == []
+    assert part_holds(drawn, geometry(), nothing, TASK, PARAMS.segmentation)[1] == []
