@@ -24,6 +24,9 @@ _FRACTIONS = (0.3, 0.5, 0.7)
 # A simplified solid with less than this share of the volume has collapsed, as a thin disc does.
 _LEAST_SHARE = 0.01
 
+# Cuts leave flat remnants, of which engines make no body: a hundredth of a millimetre, cubed.
+_LEAST_M3 = 1e-15
+
 
 def convex_parts(parts: Sequence[Manifold], resolution: Resolution) -> list[Manifold]:
     """Cover solids with convex hulls that leave their hollows open.
@@ -54,7 +57,8 @@ def convex_parts(parts: Sequence[Manifold], resolution: Resolution) -> list[Mani
         )
         for _, _, piece in heap
     ]
-    return sorted(hulls, key=lambda hull: -hull.volume())
+    bodies = [hull for hull in hulls if hull.volume() > _LEAST_M3]
+    return sorted(bodies, key=lambda hull: -hull.volume())
 
 
 def _simplified(solid: Manifold, tolerance_m: float) -> Manifold:
