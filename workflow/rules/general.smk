@@ -156,7 +156,7 @@ rule try_general:
         samples=rules.count_kind_types.output.samples,
         properties=every_shape(rules.prepare_kind.output.properties),
     output:
-        table="reports/general/trials.csv",
+        table="reports/general_trials.csv",
         figure=report(
             "reports/general/kinds.png",
             caption="../report/general_kinds.rst",
