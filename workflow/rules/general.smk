@@ -158,7 +158,7 @@ rule try_general:
     output:
         table="reports/general_trials.csv",
         figure=report(
-            "reports/general/kinds.png",
+            "reports/general_kinds.png",
             caption="../report/general_kinds.rst",
             category="Unseen objects",
             labels={"subject": "number of kinds", "labels": "simulated", "kind": "figure"},
@@ -188,7 +188,7 @@ rule tabulate_general:
         ),
         markdown="reports/table3.md",
         figure=report(
-            "reports/general/calibration.png",
+            "reports/calibration.png",
             caption="../report/table3.rst",
             category="Unseen objects",
             labels={"subject": "calibration", "labels": "both", "kind": "figure"},

@@ -49,6 +49,6 @@ def draw_calibration(
         axes.set_title(f"held-out {shown}, {source} labels", fontsize=10)
         axes.set_xlabel("probability that a type occurs")
         axes.set_ylabel("how often it does")
-        axes.legend(fontsize=8, loc="upper left")
+        axes.legend(fontsize=8, loc="lower right")
     figure.tight_layout()
     return figure
