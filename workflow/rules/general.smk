@@ -82,24 +82,6 @@ rule describe_photographs:
         "../scripts/describe_photographs.py"
 
 
-# Unlike data/kinds/samples.csv, without the pairs that nothing holds.
-rule count_kind_types:
-    input:
-        grasps=every_shape(rules.synthesize_kind_grasps.output.grasps),
-        grids=every_shape(rules.prepare_kind.output.distance_grid),
-    output:
-        samples="data/general/samples.csv",
-    params:
-        hand=hand_parameter(config["hand"]),
-        settings=settings("grasp_types", "fitted_on", "softness", "own_frames"),
-        least=config["general"]["protocol"]["least_grasps"],
-        code=script_hash("count_kind_types"),
-    message:
-        "Counting the grasp types of kinds"
-    script:
-        "../scripts/count_kind_types.py"
-
-
 rule evaluate_general:
     input:
         kinds="data/general/features/kinds.npz",
@@ -107,7 +89,7 @@ rule evaluate_general:
         renders="data/general/features/renders.npz",
         scans="data/general/features/scans.npz" if scanned() else [],
         photographs=rules.describe_photographs.output.features if PHOTOGRAPHS else [],
-        kind_samples=rules.count_kind_types.output.samples,
+        kind_samples=rules.label_kind_grasps.output.samples,
         kind_properties=every_shape(rules.prepare_kind.output.properties),
         simulated=SAMPLES["simulated"],
         samples=[SAMPLES[labels] for labels in LABELS],
@@ -131,7 +113,7 @@ rule train_general:
     input:
         kinds="data/general/features/kinds.npz",
         objects="data/general/features/objects.npz",
-        kind_samples=rules.count_kind_types.output.samples,
+        kind_samples=rules.label_kind_grasps.output.samples,
         kind_properties=every_shape(rules.prepare_kind.output.properties),
         simulated=SAMPLES["simulated"],
         properties=expand("data/objects/{object}/properties.json", object=OBJECTS),
@@ -153,7 +135,7 @@ rule train_general:
 rule try_general:
     input:
         kinds="data/general/features/kinds.npz",
-        samples=rules.count_kind_types.output.samples,
+        samples=rules.label_kind_grasps.output.samples,
         properties=every_shape(rules.prepare_kind.output.properties),
     output:
         table="reports/general_trials.csv",
@@ -178,7 +160,7 @@ rule tabulate_general:
     input:
         answers=rules.evaluate_general.output.answers,
         samples=[SAMPLES[labels] for labels in LABELS],
-        kind_samples=rules.count_kind_types.output.samples,
+        kind_samples=rules.label_kind_grasps.output.samples,
     output:
         table=report(
             "reports/table3.csv",

@@ -55,6 +55,8 @@ use rule label_grasps as label_kind_grasps with:
     output:
         grasps="data/kinds/grasps.csv",
         samples="data/kinds/samples.csv",
+    params:
+        least=config["kinds"]["least_grasps"],
 
 
 use rule render_object as render_kind with:

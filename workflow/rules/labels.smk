@@ -43,6 +43,8 @@ rule label_grasps:
     params:
         hand=hand_parameter(config["hand"]),
         settings=settings("grasp_types", "fitted_on", "softness", "own_frames"),
+        # A dataset in which nothing holds an object for a task is a mistake.
+        least=0,
         code=script_hash("label_grasps"),
     message:
         "Labelling all grasps"

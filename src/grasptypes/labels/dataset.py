@@ -148,16 +148,23 @@ def image_name(object_name: str, session: int, task: str) -> str:
     return f"screenshots/{object_name}_{session}_{task}.png"
 
 
-def sample_table(dataset: pd.DataFrame, file: str | Path = "data/grasps.csv") -> pd.DataFrame:
+def sample_table(
+    dataset: pd.DataFrame, file: str | Path = "data/grasps.csv", least: int = 0
+) -> pd.DataFrame:
     """Count the valid grasps of each (object, task): a table of `samples.SAMPLE_SCHEMA`.
 
+    Args:
+        file: file name for errors.
+        least: pairs with fewer valid grasps are left out; 0 leaves none out.
+
     Raises:
-        InputError: an (object, task) without a valid grasp.
+        InputError: an (object, task) without a valid grasp, if none is left out.
     """
     columns = dict(zip(TYPES, COUNTS, strict=True))
     counted = pd.crosstab([dataset.Object, dataset.Intent], dataset.GraspType.map(columns))
     counts = counted.reindex(columns=list(COUNTS), fill_value=0).reset_index()
     everything = dataset[["Object", "Intent"]].drop_duplicates()
     counts = everything.merge(counts, how="left").fillna(0)
+    counts = counts[counts[list(COUNTS)].sum(axis=1) >= least]
     counts = counts.rename(columns={"Object": "object", "Intent": "task"})
     return samples_from_counts(counts.astype(dict.fromkeys(COUNTS, int)), file)

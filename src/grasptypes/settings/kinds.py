@@ -22,5 +22,6 @@ class KindSettings(Settings):
     names: Unique[Name] = setting("kinds of the target `kinds`; an empty list means all")
     shapes: int = setting("shapes of each kind that are grasped", ge=1, le=99)
     sessions: int = setting("sessions per shape and task", ge=1, le=10_000)
+    least_grasps: int = setting("valid grasps that make a label", ge=1, le=10_000)
     views: int = setting("images of each shape", ge=1, le=1000)
     sheet: KindSheetSettings

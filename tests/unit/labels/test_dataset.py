@@ -85,3 +85,7 @@ def test_samples_count_valid_grasps_only():
 def test_a_sample_without_valid_grasp_is_named():
     with pytest.raises(InputError, match="ball, handoff"):
         sample_table(made())
+
+
+def test_pairs_with_few_valid_grasps_may_be_left_out():
+    assert sample_table(made(), least=1).task.tolist() == ["use"]
