@@ -105,7 +105,10 @@ def draw_curve(table: pd.DataFrame) -> Figure:
             capsize=3,
             label=model,
         )
+    counts = sorted(set(rows["learned"]))
     axes.set_xscale("log")
+    axes.set_xticks(counts, [f"{count:.0f}" for count in counts])
+    axes.minorticks_off()
     axes.set_xlabel("kinds learned from")
     axes.set_ylabel("angular similarity, held-out kinds")
     axes.legend(fontsize="small")
