@@ -76,8 +76,8 @@ rule tabulate_kinds:
         surfaces=every_shape(rules.prepare_kind.output.surface),
         properties=every_shape(rules.prepare_kind.output.properties),
     output:
-        kinds="reports/kinds/kinds.csv",
-        roles="reports/kinds/types_by_role.csv",
+        kinds="reports/kinds.csv",
+        roles="reports/types_by_role.csv",
     params:
         hand=hand_parameter(config["hand"]),
         code=script_hash("tabulate_kinds"),
