@@ -84,3 +84,24 @@ def pictures_of(wildcards):
         "renders": lambda: expand(rules.render_object.output.pictures, object=OBJECTS),
         "scans": lambda: expand(rules.picture_scan.output.pictures, object=scanned()),
     }[wildcards.shown]()
+
+
+# Scans to plan for, with their scale and mass: of ContactDB, whose true roles our models tell, and of YCB objects with a
+# table of true roles. A mass of None is that of a solid of water.
+YCB, YCB_ROLES = "ycb_", "assets/ycb_roles.csv"
+
+
+def planned_scans():
+    """File, scale and mass of each scan that the user has, by name."""
+    scans = {Path(path).stem: (path, config["objects"]["scale"], None) for path in REFERENCE_MESHES}
+    folder = Path(real_objects(os.environ)["ycb"])
+    if folder.is_dir():
+        masses = folder / "scripts/ycb_mass.json"
+        if not masses.is_file():
+            sys.exit(f"error: GRASPTYPES_YCB: names '{folder}', which has no {masses}")
+        masses_kg = json.loads(masses.read_text(encoding="utf-8"))
+        lines = Path(YCB_ROLES).read_text(encoding="utf-8").splitlines()
+        for name in {line.split(",")[0]: None for line in lines if line.startswith(YCB)}:
+            known = name.removeprefix(YCB)
+            scans[name] = str(folder / "ycb" / known / "textured.obj"), 1.0, masses_kg[known]
+    return scans
