@@ -86,7 +86,6 @@ localrules:
     tabulate_scan_plans,
     summarise_scores,
     compare_kind_sizes,
-    count_kind_types,
     tabulate_general,
     plot_folds,
     plot_losses,
