@@ -6,6 +6,7 @@ import tomllib
 from pathlib import Path
 
 import pytest
+from PIL import Image
 
 from grasptypes.extras import EXTRAS, MissingExtraError, missing_extra
 
@@ -70,6 +71,14 @@ def test_a_command_names_the_extra_that_it_lacks(
     assert done.returncode == 1
     assert done.stderr.count("\n") == 1
     assert done.stderr.endswith(f"pip install 'grasptypes[{extra}]'\n")
+
+
+def test_prediction_needs_no_other_extra(tmp_path: Path) -> None:
+    Image.new("RGB", (64, 64), "red").save(tmp_path / "photo.png")
+    others = sorted(set(OPTIONAL) - set(EXTRAS["predict"]))
+    words = ("predict", "--image", "photo.png", "--task", "use")
+    done = without(others, command(*words), tmp_path)
+    assert "general" in done.stdout, done.stderr
 
 
 def test_the_library_names_the_extra_that_it_lacks(tmp_path: Path) -> None:

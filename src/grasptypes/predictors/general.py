@@ -14,7 +14,6 @@ import numpy as np
 import torch
 from scipy.optimize import minimize_scalar
 from scipy.special import expit, softmax
-from sklearn.decomposition import PCA
 from torch import Tensor
 
 from grasptypes.predictors.general_inputs import FACTS
@@ -84,6 +83,8 @@ class Projection:
         count = min(count, len(rows) - 1, rows.shape[1])
         if count == 0:
             return cls(rows.mean(axis=0), np.zeros((rows.shape[1], 0)))
+        from sklearn.decomposition import PCA  # answering needs no scikit-learn
+
         found = PCA(count, svd_solver="randomized", random_state=0).fit(rows)
         lengths = np.maximum(np.sqrt(found.explained_variance_), 1e-6)
         scale = lengths**whitening * lengths[0] ** (1 - whitening)
