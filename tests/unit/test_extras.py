@@ -14,12 +14,16 @@ ROOT = Path(__file__).parents[2]
 # What the package and its tests import by another name than that of the distribution.
 DISTRIBUTIONS = {"sklearn": "scikit-learn", "pyrender": "pyrender2"}
 HIDE = """
-import sys
+import importlib.util, sys
 class Hidden:
     def find_spec(self, name, path=None, target=None):
         if name.split(".")[0] in {names!r}:
             raise ModuleNotFoundError(f"No module named {{name!r}}", name=name)
 sys.meta_path.insert(0, Hidden())
+found = importlib.util.find_spec
+def find_spec(name, package=None):
+    return None if name.split(".")[0] in {names!r} else found(name, package)
+importlib.util.find_spec = find_spec  # torch asks whether others are installed
 """
 OPTIONAL = sorted({module for modules in EXTRAS.values() for module in modules})
 
