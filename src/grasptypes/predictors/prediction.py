@@ -237,6 +237,8 @@ class Predictor:
 def report(answers: Sequence[Answer], card: Card, task: str) -> str:
     """Answers as text: a block for one, one row each for several."""
     whose = f"task {task}" if card.sees_task else "whatever the task"
+    if task not in card.learned:
+        whose += ", which it has not learned"
     lines = [
         f"model     {card.model}, {card.labels} labels, {whose}",
         f"backbone  {card.backbone}, {card.weights}",

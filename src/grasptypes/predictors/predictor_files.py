@@ -51,6 +51,11 @@ class ModelCard(Record):
     finetune: str
 
     @property
+    def learned(self) -> Many[str]:
+        """The tasks that it has learned: all that it knows."""
+        return self.tasks
+
+    @property
     def sees_task(self) -> bool:
         """Whether the answer depends on the task."""
         variant = VARIANTS[self.model]

@@ -6,7 +6,9 @@ from manifold3d import Manifold, OpType
 from tests.unit.settings import PARAMS
 
 from grasptypes.kinds.catalogue import build
+from grasptypes.kinds.modelling import build_shape
 from grasptypes.objects import collision, solids
+from grasptypes.objects.preparation import scaled_parts
 
 RESOLUTION = PARAMS.objects.resolution
 
@@ -71,6 +73,14 @@ def test_parts_thinner_than_the_tolerance_keep_their_volume():
     disc = Manifold.cylinder(RESOLUTION.collision_tolerance_m / 2, 0.03, 0.03, 64)
     (hull,) = collision.convex_parts([disc], RESOLUTION)
     assert hull.volume() > disc.volume() / 2
+
+
+def test_flat_remnants_of_cuts_are_left_out():
+    """One edge of the letter block is cut into pieces without a volume."""
+    model = build_shape("letter_block_s01")
+    parts = [part.solid for part in scaled_parts(model.model, model.scale)]
+    hulls = collision.convex_parts(parts, RESOLUTION)
+    assert min(hull.volume() for hull in hulls) > 1e-15
 
 
 def _united(solids_: list) -> Manifold:

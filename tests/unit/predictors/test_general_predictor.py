@@ -19,7 +19,7 @@ from grasptypes.predictors.general_predictor import (
     write_general,
 )
 from grasptypes.predictors.known_size import facts_of_size
-from grasptypes.predictors.prediction import Predictor
+from grasptypes.predictors.prediction import Predictor, report
 
 PICTURE = np.random.default_rng(2).integers(0, 256, (64, 64, 3), dtype=np.uint8)
 
@@ -49,6 +49,9 @@ def test_size_mass_and_task_change_the_answer_which_is_made_of_probabilities(pre
 def test_it_answers_for_tasks_that_it_has_not_learned(predictor):
     assert "pour" not in predictor.card.learned
     assert predictor.predict(PICTURE, "pour").probability.sum() == pytest.approx(1)
+    answer = predictor.predict(PICTURE, "pour")
+    assert "task pour, which it has not learned" in report([answer], predictor.card, "pour")
+    assert "not learned" not in report([answer], predictor.card, "use")
     with pytest.raises(InputError, match="--task: is needed"):
         predictor.predict(PICTURE)
 
