@@ -82,12 +82,34 @@ rule describe_photographs:
         "../scripts/describe_photographs.py"
 
 
+# For comparison with images.
+rule describe_shapes:
+    input:
+        surfaces=surfaces_of,
+    output:
+        shapes="data/general/shapes/{shown}.npz",
+    wildcard_constraints:
+        shown="kinds|objects|scans",
+    params:
+        scans=lambda wildcards: scanned() if wildcards.shown == "scans" else {},
+        files=lambda wildcards: hashes(scanned().values()) if wildcards.shown == "scans" else {},
+        settings=config["objects"]["import"],
+        segmentation=config["segmentation"],
+        code=script_hash("describe_shapes"),
+    message:
+        "Describing the shapes of {wildcards.shown}"
+    script:
+        "../scripts/describe_shapes.py"
+
+
 rule evaluate_general:
     input:
         kinds="data/general/features/kinds.npz",
         objects="data/general/features/objects.npz",
         renders="data/general/features/renders.npz",
         scans="data/general/features/scans.npz" if scanned() else [],
+        shapes=expand("data/general/shapes/{shown}.npz", shown=["kinds", "objects"]),
+        scan_shapes="data/general/shapes/scans.npz" if scanned() else [],
         photographs=rules.describe_photographs.output.features if PHOTOGRAPHS else [],
         kind_samples=rules.label_kind_grasps.output.samples,
         kind_properties=every_shape(rules.prepare_kind.output.properties),

@@ -86,6 +86,13 @@ def pictures_of(wildcards):
     }[wildcards.shown]()
 
 
+def surfaces_of(wildcards):
+    """The surfaces of a group of prepared objects."""
+    names = {"kinds": shapes(), "objects": OBJECTS, "scans": []}[wildcards.shown]
+    kind_or_object = rules.prepare_kind.output.surface, rules.prepare_object.output.surface
+    return expand(kind_or_object[wildcards.shown == "objects"], object=names)
+
+
 # Scans to plan for, with their scale and mass: of ContactDB, whose true roles our models tell, and of YCB objects with a
 # table of true roles. A mass of None is that of a solid of water.
 YCB, YCB_ROLES = "ycb_", "assets/ycb_roles.csv"

@@ -25,7 +25,14 @@ from grasptypes.predictors.general_protocol import (
     SCANS,
     SCANS_KNOWN,
 )
-from grasptypes.predictors.general_study import Study, Test, answer_everything, first_views
+from grasptypes.predictors.general_study import (
+    Study,
+    Test,
+    answer_as_paper,
+    answer_by_shape,
+    answer_everything,
+    first_views,
+)
 from grasptypes.settings.general import GeneralSettings
 from grasptypes.settings.predictors import PredictorSettings
 from grasptypes.tables import write_table
@@ -80,8 +87,18 @@ if __name__ == "__main__":
         torch.set_num_threads(snakemake.threads)
         params = snakemake.params
         settings = GeneralSettings.check(params.settings)
-        study = read_study(dict(snakemake.input.items()), params.labels, params.tasks, settings)
+        files, folds = dict(snakemake.input.items()), settings.protocol.folds
+        study = read_study(files, params.labels, params.tasks, settings)
+        of_kinds, of_objects = files["shapes"]
+        shapes = {"kinds": of_kinds, "objects": of_objects, "renders": of_objects}
+        shapes |= {"scans": files["scan_shapes"], "photographs": []}
+        shaped = read_study(files | shapes, params.labels, params.tasks, settings)
+        by_shape = settings.head.changed(pictures=settings.protocol.shape_directions, classes=0)
         baseline = PredictorSettings.check(params.predictors)
-        answers = answer_everything(study, settings, baseline, params.seed)
-        write_table(answers, snakemake.output.answers, ANSWER_SCHEMA)
+        answers = [
+            answer_everything(study, settings.head, folds, params.seed),
+            answer_by_shape(shaped, by_shape, folds, params.seed),
+            answer_as_paper(study, baseline, params.seed),
+        ]
+        write_table(pd.concat(answers, ignore_index=True), snakemake.output.answers, ANSWER_SCHEMA)
         log.info("learned from %d kinds' shapes", len(study.kinds.facts))

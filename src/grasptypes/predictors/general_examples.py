@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import pandas as pd
@@ -40,6 +40,12 @@ class Known:
         """What is left without all objects of some families."""
         kept = [name for name in self.facts.index if not self.families[name] & set(families)]
         return self.only(kept)
+
+    def without_labels(self, families: Collection[str], task: str) -> Known:
+        """What is left without the labels that all objects of some families have for a task."""
+        out = [bool(self.families[name] & set(families)) for name in self.samples["object"]]
+        samples = self.samples[~(np.array(out) & (self.samples["task"] == task))]
+        return replace(self, samples=samples)
 
     def only(self, names: Collection[str]) -> Known:
         """What is known of some objects."""

@@ -21,9 +21,10 @@ OCCURS, DIRECTION, SHARES = (
     tuple(f"{word}_{name}" for name in TYPES) for word in ("occurs", "direction", "share")
 )
 ALL_VIEWS = -1
-CONSTANT, SIZE_ONLY, TASK_VECTOR, IMAGE, WITH_SIZE, VIEWS, VIEWS_WITH_SIZE = ROWS = (
+CONSTANT, SIZE_ONLY, GEOMETRY, TASK_VECTOR, IMAGE, WITH_SIZE, VIEWS, VIEWS_WITH_SIZE = ROWS = (
     "constant",
     "size_only",
+    "geometry",
     "task_vector",
     "general",
     "general_size",
@@ -33,8 +34,9 @@ CONSTANT, SIZE_ONLY, TASK_VECTOR, IMAGE, WITH_SIZE, VIEWS, VIEWS_WITH_SIZE = ROW
 SIMULATED = "simulated"
 # Probabilities are kept this far from 0 and 1.
 LEAST = 1e-6
-KINDS, OBJECTS, SCANS_KNOWN, SCANS, PHOTOGRAPHS_KNOWN, PHOTOGRAPHS = COLUMNS = (
+KINDS, KIND_TASKS, OBJECTS, SCANS_KNOWN, SCANS, PHOTOGRAPHS_KNOWN, PHOTOGRAPHS = COLUMNS = (
     "kinds",
+    "kind_tasks",
     "objects",
     "scans_known",
     "scans",
@@ -200,10 +202,27 @@ def hold_out_kinds(
     return found
 
 
-def calibrated_folds(folds: Sequence[pd.DataFrame], samples: pd.DataFrame) -> pd.DataFrame:
+def hold_out_tasks(
+    known: Known, settings: HeadSettings, folds: int, seed: int
+) -> list[pd.DataFrame]:
+    """As :func:`hold_out_kinds`, but of what is held out, only the labels of one task at a time."""
+    found = []
+    for fold in family_folds(known.families, folds, seed):
+        test = known.only([name for name in known.facts.index if known.families[name] & fold])
+        tables = []
+        for name, task in known.tasks.items():
+            heads = Heads.of(known.without_labels(fold, name), settings)
+            tables.append(answers(heads, test.pictures, test.facts, {name: task}))
+        found.append(pd.concat(tables, ignore_index=True))
+    return found
+
+
+def calibrated_folds(
+    folds: Sequence[pd.DataFrame], samples: pd.DataFrame, shown: str = KINDS
+) -> pd.DataFrame:
     """The answers about held-out kinds, each fold calibrated on the others."""
     tables = []
     for number, table in enumerate(folds):
         others = pd.concat([*folds[:number], *folds[number + 1 :]])
-        tables.append(finished(table, temperatures(others, samples), KINDS, SIMULATED))
+        tables.append(finished(table, temperatures(others, samples), shown, SIMULATED))
     return pd.concat(tables, ignore_index=True)

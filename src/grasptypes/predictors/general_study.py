@@ -12,6 +12,8 @@ from grasptypes.predictors.general_baseline import Asked, task_vector_answers
 from grasptypes.predictors.general_examples import Families, Known
 from grasptypes.predictors.general_inputs import Pictures, TaskCode, joined
 from grasptypes.predictors.general_protocol import (
+    GEOMETRY,
+    KIND_TASKS,
     KINDS,
     SIMULATED,
     WITH_SIZE,
@@ -20,9 +22,10 @@ from grasptypes.predictors.general_protocol import (
     calibrated_folds,
     finished,
     hold_out_kinds,
+    hold_out_tasks,
     temperatures,
 )
-from grasptypes.settings.general import GeneralSettings
+from grasptypes.settings.general import GeneralSettings, HeadSettings
 from grasptypes.settings.predictors import PredictorSettings
 
 NOTHING: frozenset[str] = frozenset()
@@ -85,26 +88,41 @@ def together(kinds: Known, objects: Known) -> Known:
     )
 
 
-def answer_everything(
-    study: Study, settings: GeneralSettings, baseline: PredictorSettings, seed: int
-) -> pd.DataFrame:
-    """The answers of all models in all columns: a table of `general_protocol.ANSWER_SCHEMA`.
+def answer_everything(study: Study, head: HeadSettings, folds: int, seed: int) -> pd.DataFrame:
+    """The answers of the heads in all columns: a table of `general_protocol.ANSWER_SCHEMA`.
 
     Temperatures come from kinds alone, with heads that have not learned from the objects.
+
+    Args:
+        folds: groups of kinds, each held out in turn.
     """
-    folds = hold_out_kinds(study.kinds, settings.head, settings.protocol.folds, seed)
-    heat = temperatures(pd.concat(folds), study.kinds.samples)
-    tables = [calibrated_folds(folds, study.kinds.samples)]
+    samples = study.kinds.samples
+    out_of_fold = hold_out_kinds(study.kinds, head, folds, seed)
+    heat = temperatures(pd.concat(out_of_fold), samples)
+    one_task_out = hold_out_tasks(study.kinds, head, folds, seed)
+    tables = [
+        calibrated_folds(out_of_fold, samples),
+        calibrated_folds(one_task_out, samples, KIND_TASKS),
+    ]
     everything, tasks = together(study.kinds, study.objects), study.kinds.tasks
     heads: dict[frozenset[str], Heads] = {}
     for test in study.tests:
         for out, names in test.groups().items():
             if out not in heads:
-                heads[out] = Heads.of(everything.without(out), settings.head)
+                heads[out] = Heads.of(everything.without(out), head)
             told = answers(heads[out], test.pictures.of(names), test.facts, tasks)
             tables.append(finished(told, heat, test.shown, SIMULATED))
-    tables += _of_baseline(study, baseline, seed)
     return pd.concat(tables, ignore_index=True)
+
+
+def answer_by_shape(study: Study, head: HeadSettings, folds: int, seed: int) -> pd.DataFrame:
+    """The answers of heads that are told shape, size and mass, and see no image.
+
+    Args:
+        study: with shapes, see `general_shapes`, in the place of images.
+    """
+    told = answer_everything(study, head, folds, seed)
+    return told[told["model"] == WITH_SIZE].assign(model=GEOMETRY)
 
 
 def final_head(
@@ -123,7 +141,7 @@ def first_views(pictures: Pictures, count: int) -> Pictures:
     return pictures.rows(place.to_numpy() < count)
 
 
-def _of_baseline(study: Study, settings: PredictorSettings, seed: int) -> list[pd.DataFrame]:
+def answer_as_paper(study: Study, settings: PredictorSettings, seed: int) -> pd.DataFrame:
     """The answers of the paper's model (b), for each source of labels."""
     own, shown = study.objects.families, [KINDS]
     asked: list[Asked] = [(NOTHING, study.kinds.pictures.features, study.kinds.pictures.objects)]
@@ -138,7 +156,7 @@ def _of_baseline(study: Study, settings: PredictorSettings, seed: int) -> list[p
     for source, samples in study.samples.items():
         told = task_vector_answers(renders, samples, asked, settings, seed)
         tables += [_named(table, name, source) for name, table in zip(shown, told, strict=True)]
-    return tables
+    return pd.concat(tables, ignore_index=True)
 
 
 def _named(table: pd.DataFrame, shown: str, source: str) -> pd.DataFrame:

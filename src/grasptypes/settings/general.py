@@ -88,6 +88,7 @@ class ProtocolSettings(Settings):
     folds: int = setting("groups of kinds, each held out in turn", ge=2, le=100)
     test_views: int = setting("images of each object that are tested", ge=1, le=1000)
     bins: int = setting("bins of the expected calibration error", ge=2, le=100)
+    shape_directions: int = setting("principal directions of shapes in numbers", ge=1, le=100)
     families: dict[Name, Annotated[Unique[Name], Field(min_length=1)]] = setting(
         "families of kinds that each object of the paper is held out with"
     )
