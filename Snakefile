@@ -87,6 +87,7 @@ localrules:
     summarise_scores,
     compare_kind_sizes,
     tabulate_general,
+    publish_general,
     plot_folds,
     plot_losses,
 

@@ -62,6 +62,24 @@ rule describe_pictures:
         "../scripts/describe_pictures.py"
 
 
+# The images of kinds as backbones see them that are only compared.
+use rule describe_pictures as describe_for_trial with:
+    input:
+        pictures=lambda wildcards: random_pictures(*shapes()),
+    output:
+        features="data/general/backbones/{backbone}.npz",
+    wildcard_constraints:
+        backbone=r"\w+",
+    params:
+        backbone=lambda wildcards: wildcards.backbone,
+        settings=config["backbone"],
+        batch=config["features"]["batch"],
+        weights=weights_choice(),
+        code=script_hash("describe_pictures"),
+    message:
+        "Describing pictures of kinds with {wildcards.backbone}"
+
+
 # For those who have photographs: GRASPTYPES_PHOTOGRAPHS names a folder with photographs.csv.
 rule describe_photographs:
     output:
@@ -157,6 +175,9 @@ rule train_general:
 rule try_general:
     input:
         kinds="data/general/features/kinds.npz",
+        backbones=expand(
+            rules.describe_for_trial.output.features, backbone=GENERAL.trials.get("backbone", [])
+        ),
         samples=rules.label_kind_grasps.output.samples,
         properties=every_shape(rules.prepare_kind.output.properties),
     output:
@@ -206,3 +227,22 @@ rule tabulate_general:
         "Tabulating answers about unseen objects"
     script:
         "../scripts/tabulate_general.py"
+
+
+rule publish_general:
+    input:
+        answers=rules.evaluate_general.output.answers,
+        samples=rules.label_kind_grasps.output.samples,
+        table=rules.tabulate_general.output.table,
+    output:
+        runs="reports/general_runs.json",
+    params:
+        settings=config["general"],
+        tracking=settings("tracking"),
+        hand=labelled_hand("simulated"),
+        seed=config["seed"],
+        code=script_hash("publish_general"),
+    message:
+        "Publishing the predictor for unseen objects to MLflow"
+    script:
+        "../scripts/publish_general.py"

@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import logging
+from collections.abc import Mapping
+from dataclasses import replace
 
 import pandas as pd
 import pandera.pandas as pa
 from matplotlib.figure import Figure
 
 from grasptypes.predictors.general_examples import Known, family_folds
+from grasptypes.predictors.general_inputs import Pictures
 from grasptypes.predictors.general_protocol import (
     CONSTANT,
     SIMULATED,
@@ -21,7 +24,7 @@ from grasptypes.predictors.general_protocol import (
 )
 from grasptypes.reports.table3 import TABLE_SCHEMA, tabulate
 from grasptypes.seeds import rng
-from grasptypes.settings.general import KINDS, GeneralSettings
+from grasptypes.settings.general import BACKBONE, KINDS, GeneralSettings
 
 LOGGER = logging.getLogger("grasptypes")
 CURVES = {
@@ -34,7 +37,7 @@ COLUMNS = ("model", "similarity", "similarity_se", "similarity_shares", "calibra
 TRIAL_SCHEMA = pa.DataFrameSchema(
     {
         "setting": pa.Column(str, description="of the head, or the number of kinds"),
-        "value": pa.Column(float),
+        "value": pa.Column(str, coerce=True),
         "learned": pa.Column(float, description="shapes learned from, mean over the folds"),
         **{name: TABLE_SCHEMA.columns[name] for name in COLUMNS},
         "over_constant": TABLE_SCHEMA.columns["over_constant"],
@@ -46,23 +49,28 @@ TRIAL_SCHEMA = pa.DataFrameSchema(
 )
 
 
-def try_settings(known: Known, settings: GeneralSettings, seed: int) -> pd.DataFrame:
+def try_settings(
+    known: Known, others: Mapping[str, Pictures], settings: GeneralSettings, seed: int
+) -> pd.DataFrame:
     """One row per trial and model: a table of `TRIAL_SCHEMA`.
 
     Args:
         known: kinds, each of which is held out once, with its family.
+        others: the same images as other backbones see them.
     """
     tables = []
     for key, values in settings.trials.items():
         for value in values:
-            table = _try(known, settings, (key, value), seed)
-            tables.append(table.assign(setting=key, value=float(value)))
+            pictures = others[value] if key == BACKBONE else known.pictures
+            seen = replace(known, pictures=pictures.of(known.facts.index))
+            table = _try(seen, settings, (key, value), seed)
+            tables.append(table.assign(setting=key, value=str(value)))
             LOGGER.info("tried %s: %s", key, value)
     return pd.concat(tables, ignore_index=True)[list(TRIAL_SCHEMA.columns)]
 
 
 def _try(
-    known: Known, settings: GeneralSettings, trial: tuple[str, float], seed: int
+    known: Known, settings: GeneralSettings, trial: tuple[str, float | str], seed: int
 ) -> pd.DataFrame:
     """The rows of one trial."""
     head, count = settings.trial(*trial)

@@ -79,7 +79,7 @@ def tabulate(
         several = scored.groupby("model")["labels"].transform("nunique") > 1
         scored = scored[~several | (scored["labels"] == source)]
         for shown, group in scored.groupby("shown", sort=False):
-            means = _by_object(group)
+            means = object_means(group)
             constant = means.loc[CONSTANT].droplevel(0)["similarity"]
             for (model, learned), part in group.groupby(["model", "labels"], sort=False):
                 mine = means.loc[(model, learned)]
@@ -132,7 +132,7 @@ def calibration_curve(scored: pd.DataFrame, bins: int) -> pd.DataFrame:
     )
 
 
-def _by_object(scored: pd.DataFrame) -> pd.DataFrame:
+def object_means(scored: pd.DataFrame) -> pd.DataFrame:
     """Means of views, then tasks: index model, labels, object."""
     keys = ["model", "labels", "object"]
     return scored.groupby([*keys, "task"])[list(MEASURES)].mean().groupby(keys).mean()

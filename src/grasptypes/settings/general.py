@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Annotated, Literal, Self
 
-from pydantic import AfterValidator, Field, ValidationError, model_validator
+from pydantic import AfterValidator, Field, TypeAdapter, ValidationError, model_validator
 
 from grasptypes.settings.base import (
     Between,
@@ -108,18 +108,20 @@ class HeadSettings(Settings):
     weight_decay: float = setting("of all weights but the constant", ge=0, le=100)
 
 
-KINDS = "kinds"  # trials of training sets, next to those of the head
+# Trials that are not of the head.
+KINDS, BACKBONE = "kinds", "backbone"
+Backbone = Literal["mobilenet_v2", "efficientnet_lite0"]
 
 
 class GeneralSettings(Settings):
     """The predictor for unseen objects."""
 
     images: ImageSettings
-    backbone: Literal["mobilenet_v2", "efficientnet_lite0"] = setting("network of the features")
+    backbone: Backbone = setting("network of the features")
     head: HeadSettings
     protocol: ProtocolSettings
-    trials: dict[str, Many[int | float | bool]] = setting(
-        "values that keys of `head`, and the number of kinds, have instead, one at a time"
+    trials: dict[str, Many[int | float | bool | str]] = setting(
+        "values that keys of `head`, the number of kinds and the backbone take, one at a time"
     )
 
     @model_validator(mode="after")
@@ -133,8 +135,11 @@ class GeneralSettings(Settings):
                     raise MisplacedError(f"trials.{key}.{index}", message) from error
         return self
 
-    def trial(self, key: str, value: float) -> tuple[HeadSettings, int]:
+    def trial(self, key: str, value: float | str) -> tuple[HeadSettings, int]:
         """The head's settings and the number of kinds of a trial; 0 kinds are all."""
         if key == KINDS:
             return self.head, int(value)
+        if key == BACKBONE:
+            TypeAdapter(Backbone).validate_python(value)
+            return self.head, 0
         return HeadSettings.model_validate(self.head.model_dump() | {key: value}), 0

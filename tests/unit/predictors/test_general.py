@@ -1,5 +1,7 @@
 """The head for unseen objects: it learns size, falls back on the mean answer, and is calibrated."""
 
+from dataclasses import replace
+
 import numpy as np
 import pandas as pd
 import pytest
@@ -109,18 +111,24 @@ def test_images_may_be_missing_for_no_label(known):
 def test_trials_change_one_setting_at_a_time(known):
     settings = PARAMS.general.changed(
         head=HEAD,
-        trials={"kinds": (4, 40), "facts": (False,)},
+        trials={"kinds": (4, 40), "facts": (False,), "backbone": ("mobilenet_v2",)},
         protocol=PARAMS.general.protocol.changed(folds=2),
     )
-    table = try_settings(known, settings, 0)
+    telling = known.facts.loc[known.pictures.objects].to_numpy()
+    others = {"mobilenet_v2": replace(known.pictures, features=telling)}
+    table = try_settings(known, others, settings, 0)
     TRIAL_SCHEMA.validate(table)
     row = table.set_index(["setting", "value", "model"])
     few, many, blind = (
-        row.loc[(*key, WITH_SIZE)] for key in (("kinds", 4), ("kinds", 40), ("facts", 0))
+        row.loc[(*key, WITH_SIZE)] for key in (("kinds", "4"), ("kinds", "40"), ("facts", "False"))
     )
     assert few.learned == 4
     assert few.similarity < many.similarity
     assert blind.similarity < many.similarity
+    told, untold = (
+        row.loc[(*key, IMAGE)] for key in (("backbone", "mobilenet_v2"), ("kinds", "40"))
+    )
+    assert told.similarity > untold.similarity + 0.1
     assert len(draw_curve(table).axes[0].lines) >= 4
 
 
@@ -129,3 +137,5 @@ def test_an_impossible_trial_is_named():
         GeneralSettings.check(
             PARAMS.general.model_dump() | {"trials": {"weight_decay": [0.1, -1.0]}}
         )
+    with pytest.raises(InputError, match=r"trials.backbone.0: vgg16"):
+        GeneralSettings.check(PARAMS.general.model_dump() | {"trials": {"backbone": ["vgg16"]}})
