@@ -229,6 +229,36 @@ rule tabulate_general:
         "../scripts/tabulate_general.py"
 
 
+rule analyse_general:
+    input:
+        answers=rules.evaluate_general.output.answers,
+        dataset=rules.label_grasps.output.grasps,
+        kind_dataset=rules.label_kind_grasps.output.grasps,
+        samples=[SAMPLES[labels] for labels in LABELS],
+        kind_samples=rules.label_kind_grasps.output.samples,
+        properties=every_shape(rules.prepare_kind.output.properties),
+        pictures=lambda wildcards: random_pictures(*shapes()),
+    output:
+        limits="reports/general_limits.csv",
+        confusions="reports/general_confusions.csv",
+        pictures=report(
+            "reports/general_answers.png",
+            caption="../report/table3.rst",
+            category="Unseen objects",
+            labels={"subject": "answers", "labels": "simulated", "kind": "figure"},
+        ),
+    params:
+        labels=LABELS,
+        hand=hand_parameter(config["hand"]),
+        # Of the worst, and as many of the others.
+        shown=10,
+        code=script_hash("analyse_general"),
+    message:
+        "Analysing answers about unseen objects"
+    script:
+        "../scripts/analyse_general.py"
+
+
 rule publish_general:
     input:
         answers=rules.evaluate_general.output.answers,
