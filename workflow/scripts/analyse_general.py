@@ -1,6 +1,6 @@
-"""What limits the predictor for unseen objects: label noise, confusions, and pictures of answers."""
+"""What limits the predictor for unseen objects: label noise, confusions, and its answers."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import pandas as pd
@@ -72,9 +72,13 @@ def caption(row: pd.Series) -> str:
         if row[chance] > SIGMOID_THRESHOLD
     ]
     name = f"{row['object'].rsplit('_', 1)[0].replace('_', ' ')}, {row['task']}"
-    half = -(-len(told) // 2)
-    lines = [f"{name}: {row['similarity']:.2f}", "held: " + ", ".join(true)]
-    return "\n".join([*lines, "told: " + ", ".join(told[:half]), ", ".join(told[half:]) or " "])
+    title = f"{name}: {row['similarity']:.2f}"
+    return "\n".join([title, *_two_lines("held: ", true), *_two_lines("told: ", told)])
+
+
+def _two_lines(start: str, words: Sequence[str]) -> tuple[str, str]:
+    half = -(-len(words) // 2)
+    return start + ", ".join(words[:half]), ", ".join(words[half:]) or " "
 
 
 def picture_rows(scored: pd.DataFrame, archives: Mapping[str, str], count: int) -> bytes:

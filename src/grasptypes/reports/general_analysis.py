@@ -41,7 +41,7 @@ CONFUSION_SCHEMA = pa.DataFrameSchema(
         "predicted": pa.Column(float, _SHARE, description="mean probability"),
         "found": pa.Column(float, _SHARE, nullable=True, description="share of what occurs"),
         "right": pa.Column(float, _SHARE, nullable=True, description="share of what is chosen"),
-        "similarity": pa.Column(float, _SHARE),
+        "similarity": pa.Column(float, _SHARE, nullable=True, description="where it occurs"),
     },
     strict=True,
     ordered=True,
@@ -123,7 +123,7 @@ def _confusion(
         "predicted": round(chance.mean(), 4),
         "found": round(both / occurs.sum(), 4) if occurs.any() else np.nan,
         "right": round(both / chosen.sum(), 4) if chosen.any() else np.nan,
-        "similarity": round(similarity.mean(), 4),
+        "similarity": round(similarity.mean(), 4) if len(similarity) else np.nan,
     }
 
 
