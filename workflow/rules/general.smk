@@ -242,7 +242,7 @@ rule analyse_general:
         limits="reports/general_limits.csv",
         confusions="reports/general_confusions.csv",
         pictures=report(
-            "reports/general_answers.png",
+            "reports/general_answers.jpg",
             caption="../report/table3.rst",
             category="Unseen objects",
             labels={"subject": "answers", "labels": "simulated", "kind": "figure"},

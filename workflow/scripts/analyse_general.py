@@ -1,9 +1,11 @@
 """What limits the predictor for unseen objects: label noise, confusions, and its answers."""
 
+import io
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import pandas as pd
+from PIL import Image
 
 from grasptypes.files import write_bytes
 from grasptypes.hands.reading import load_hand
@@ -22,7 +24,6 @@ from grasptypes.predictors.general_protocol import (
 )
 from grasptypes.predictors.metrics import SIGMOID_THRESHOLD
 from grasptypes.predictors.prediction import spelled
-from grasptypes.renders.renderer import png_bytes
 from grasptypes.reports.general_analysis import (
     CONFUSION_SCHEMA,
     HALVES,
@@ -41,6 +42,8 @@ from grasptypes.tables import read_table, write_table
 
 # Of each tile and in each row.
 TILE_PX, COLUMNS = 240, 5
+# Noise in images takes much room.
+QUALITY = 85
 
 
 def label_limits(
@@ -82,7 +85,7 @@ def _two_lines(start: str, words: Sequence[str]) -> tuple[str, str]:
 
 
 def picture_rows(scored: pd.DataFrame, archives: Mapping[str, str], count: int) -> bytes:
-    """PNG of the worst answers, and of others from the worst to the best."""
+    """JPEG of the worst answers, and of others from the worst to the best."""
     groups = [
         Group(
             heading,
@@ -97,7 +100,9 @@ def picture_rows(scored: pd.DataFrame, archives: Mapping[str, str], count: int) 
             strict=True,
         )
     ]
-    return png_bytes(sheet(groups, COLUMNS, TILE_PX), 9)
+    buffer = io.BytesIO()
+    Image.fromarray(sheet(groups, COLUMNS, TILE_PX)).save(buffer, "JPEG", quality=QUALITY)
+    return buffer.getvalue()
 
 
 if __name__ == "__main__":
