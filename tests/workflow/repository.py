@@ -27,9 +27,9 @@ class Repository:
         self.path = path
 
     @classmethod
-    def create(cls, path: Path) -> Repository:
-        """The small configuration, committed, nothing computed yet."""
-        copy_checkout(ROOT, path, SMALL)
+    def create(cls, path: Path, settings: Path = SMALL) -> Repository:
+        """A small configuration, committed, nothing computed yet."""
+        copy_checkout(ROOT, path, settings)
         for leftover in ("dvc.lock",):
             (path / leftover).unlink(missing_ok=True)
         repository = cls(path)
