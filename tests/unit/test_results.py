@@ -36,6 +36,57 @@ def test_the_readmes_table_is_that_of_the_results() -> None:
             assert shown[name][2] == paper
 
 
+SHOWN = {
+    "held-out kinds": "kinds",
+    "held-out kinds, the other task known": "kind_tasks",
+    "held-out objects": "objects",
+    "of these, the six that no number was fitted to": "objects_unfitted",
+    "scans of held-out objects": "scans",
+    "scans of known objects": "scans_known",
+    "photographs of held-out objects and kinds": "photographs",
+    "photographs of known ones": "photographs_known",
+}
+ANSWERED_BY = ("constant", "task_vector", "size_only", "geometry", "general", "general_size")
+
+
+def test_the_table_of_unseen_objects_is_that_of_the_results() -> None:
+    page = (ROOT / "docs/general.md").read_text()
+    table = pd.read_csv(RESULTS / "table3.csv").set_index(["shown", "labels", "model"])
+    found = set()
+    for name, source, *cells in re.findall(
+        r"^\| ([^|]+)" + r" \| ([^|]+)" * 7 + r" \|$", page, re.M
+    ):
+        if name not in SHOWN:
+            continue
+        for model, cell in zip(ANSWERED_BY, cells, strict=True):
+            key = (SHOWN[name], source, model)
+            if key not in table.index:
+                assert cell == "-"
+                continue
+            row = table.loc[key]
+            error = "" if model == "constant" else f" ± {row.similarity_se:.3f}"
+            assert cell == f"{row.similarity:.3f}{error}"
+            found.add(key)
+    assert found == {key for key in table.index if key[-1] in ANSWERED_BY}
+
+
+def test_the_readme_quotes_table_3() -> None:
+    text = " ".join(PAGES[0].read_text().split())
+    table = pd.read_csv(RESULTS / "table3.csv").set_index(["shown", "labels", "model"])
+    published = table.loc["objects", "published"]
+    kinds = table.loc["kinds", "simulated", "general"].n_objects
+    assert (
+        f"`general` has learned from {kinds} of them, and is better than the constant by "
+        f"{published.over_constant['general']:.2f} from an image, and by "
+        f"{published.over_constant['general_size']:.2f} with the object's size" in text
+    )
+    assert (
+        f"angular similarity of {published.similarity['general_size']:.3f} to the published "
+        f"labels; a constant answer reaches {published.similarity['constant']:.3f}, and the "
+        f"paper's model (b) {published.similarity['task_vector']:.3f}" in text
+    )
+
+
 def test_results_are_quoted_and_the_others_are_not_in_git() -> None:
     quoted = "".join(page.read_text() for page in PAGES)
     assert [path.name for path in RESULTS.iterdir() if path.stem not in quoted] == []

@@ -164,7 +164,6 @@ rule train_general:
         settings=config["general"],
         backbone=config["backbone"],
         tasks=TASKS,
-        seed=config["seed"],
         code=script_hash("train_general"),
     message:
         "Training the predictor for unseen objects"

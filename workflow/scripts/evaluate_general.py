@@ -24,6 +24,7 @@ from grasptypes.predictors.general_protocol import (
     PHOTOGRAPHS_KNOWN,
     SCANS,
     SCANS_KNOWN,
+    hold_out_images,
 )
 from grasptypes.predictors.general_study import (
     Study,
@@ -93,9 +94,14 @@ if __name__ == "__main__":
         shapes = {"kinds": of_kinds, "objects": of_objects, "renders": of_objects}
         shapes |= {"scans": files["scan_shapes"], "photographs": []}
         shaped = read_study(files | shapes, params.labels, params.tasks, settings)
-        by_shape = settings.head.changed(pictures=settings.protocol.shape_directions, classes=0)
+        by_shape = settings.head.changed(
+            pictures=settings.protocol.shape_directions,
+            classes=0,
+            memory=settings.head.memory.changed(directions=0),
+        )
         baseline = PredictorSettings.check(params.predictors)
         answers = [
+            hold_out_images(study.kinds, settings.head, params.seed),
             answer_everything(study, settings.head, folds, params.seed),
             answer_by_shape(shaped, by_shape, folds, params.seed),
             answer_as_paper(study, baseline, params.seed),

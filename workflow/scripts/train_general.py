@@ -21,7 +21,6 @@ def train_general(
     targets: tuple[str | Path, str | Path],
     settings: tuple[GeneralSettings, BackboneSettings],
     tasks: Sequence[str],
-    seed: int,
 ) -> None:
     """Write the head and its card."""
     general, backbone = settings
@@ -30,14 +29,13 @@ def train_general(
     objects = read_known_objects(
         inputs.objects, inputs.simulated, inputs.properties, families, kinds
     )
-    head, code = final_head(kinds, objects, general, seed)
+    head, code = final_head(kinds, objects, general.head)
     weights = weights_of(general.backbone, backbone.timeout_s)
     card = GeneralCard(
         types=TYPES,
         learned=tuple(tasks),
         shapes=len(kinds.facts) + len(objects.facts),
         head=head.settings,
-        temperature=round(head.temperature, 6),
         backbone=weights.backbone,
         weights=weights.name,
         input_px=backbone.input_px,
@@ -51,4 +49,4 @@ if __name__ == "__main__":
         params = snakemake.params
         settings = GeneralSettings.check(params.settings), BackboneSettings.check(params.backbone)
         targets = snakemake.output.head, snakemake.output.card
-        train_general(snakemake.input, targets, settings, params.tasks, params.seed)
+        train_general(snakemake.input, targets, settings, params.tasks)

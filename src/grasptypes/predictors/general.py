@@ -7,91 +7,19 @@ not penalised.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 import torch
-from scipy.optimize import minimize_scalar
 from scipy.special import expit, softmax
 from torch import Tensor
 
-from grasptypes.predictors.general_inputs import FACTS
+from grasptypes.predictors.general_inputs import FACTS, Inputs, Projection, Targets
+from grasptypes.predictors.memory import Memory
 from grasptypes.settings.general import HeadSettings
 
 # What a user may not know: nothing, the mass, all but the longest extent, everything.
 UNKNOWN = ((), FACTS[3:], FACTS[1:], FACTS)
-# Among which the temperature is searched.
-TEMPERATURES = (0.2, 5.0)
-
-
-@dataclass(frozen=True)
-class Inputs:
-    """Rows to learn from or to answer, one per image and task.
-
-    Attributes:
-        features: (N, F) of the backbone.
-        classes: (N, C) log-probabilities of ImageNet's classes.
-        facts: (N, 4) of `general_inputs.FACTS`; NaN where unknown.
-        tasks: (N, K) coordinates of the task.
-    """
-
-    features: np.ndarray
-    classes: np.ndarray
-    facts: np.ndarray
-    tasks: np.ndarray
-
-    def __len__(self) -> int:
-        return len(self.features)
-
-    def rows(self, chosen: np.ndarray) -> Inputs:
-        """Some of the rows."""
-        return Inputs(*(array[chosen] for array in vars(self).values()))
-
-    def without(self, names: Sequence[str]) -> Inputs:
-        """The same rows, with some facts unknown."""
-        facts = self.facts.copy()
-        facts[:, [FACTS.index(name) for name in names]] = np.nan
-        return replace(self, facts=facts)
-
-
-@dataclass(frozen=True)
-class Targets:
-    """What is learned, one row per row of the inputs.
-
-    Attributes:
-        occurs: (N, types) 0 and 1.
-        shares: (N, types) frequencies, sum 1.
-        weights: (N,) of the rows.
-    """
-
-    occurs: np.ndarray
-    shares: np.ndarray
-    weights: np.ndarray
-
-
-@dataclass(frozen=True)
-class Projection:
-    """Leading principal directions of an array's columns, with equal variances."""
-
-    middle: np.ndarray
-    directions: np.ndarray
-
-    @classmethod
-    def of(cls, rows: np.ndarray, count: int, whitening: float) -> Projection:
-        """The `count` leading directions, whose variance to the power of `whitening` is removed."""
-        count = min(count, len(rows) - 1, rows.shape[1])
-        if count == 0:
-            return cls(rows.mean(axis=0), np.zeros((rows.shape[1], 0)))
-        from sklearn.decomposition import PCA  # answering needs no scikit-learn
-
-        found = PCA(count, svd_solver="randomized", random_state=0).fit(rows)
-        lengths = np.maximum(np.sqrt(found.explained_variance_), 1e-6)
-        scale = lengths**whitening * lengths[0] ** (1 - whitening)
-        return cls(found.mean_, found.components_.T / scale)
-
-    def __call__(self, rows: np.ndarray) -> np.ndarray:
-        return np.asarray((rows - self.middle) @ self.directions)
 
 
 @dataclass(frozen=True)
@@ -102,7 +30,7 @@ class GeneralHead:
         features, classes: projections of the images' numbers.
         facts: (2, 4) mean and standard deviation of size and mass.
         weights: (D, 2 x types), rows of the design; the constant is last.
-        temperature: by which the logits of the first output are divided.
+        memory: of the objects learned from, if the head has one.
     """
 
     settings: HeadSettings
@@ -110,13 +38,18 @@ class GeneralHead:
     classes: Projection
     facts: np.ndarray
     weights: np.ndarray
-    temperature: float = 1.0
+    memory: Memory | None = None
+
+    def answers(self, inputs: Inputs) -> tuple[np.ndarray, np.ndarray]:
+        """How likely each type occurs (N, types), and its share of the grasps (N, types)."""
+        told = probabilities(self.logits(inputs))
+        return self.memory.mixed(*told, inputs) if self.memory else told
 
     def logits(self, inputs: Inputs) -> tuple[np.ndarray, np.ndarray]:
-        """Logits (N, types) of the logistic output, and of the softmax."""
+        """Logits (N, types) of the logistic output, and of the softmax, without the memory."""
         columns = design(inputs, self.settings, (self.features, self.classes), self.facts)
         occurs, shares = np.split(columns @ self.weights, 2, axis=1)
-        return occurs / self.temperature, shares
+        return occurs, shares
 
 
 def design(
@@ -158,7 +91,9 @@ def fit_head(inputs: Inputs, targets: Targets, settings: HeadSettings) -> Genera
     columns = np.vstack([design(copy, settings, projections, scale) for copy in copies])
     repeated = Targets(*(np.concatenate([array] * len(copies)) for array in vars(targets).values()))
     weights = _descend(columns, repeated, settings.weight_decay)
-    return GeneralHead(settings, *projections, scale, weights)
+    remembered = settings.memory.directions > 0
+    memory = Memory.of(inputs, targets, settings.memory) if remembered else None
+    return GeneralHead(settings, *projections, scale, weights, memory)
 
 
 def _descend(columns: np.ndarray, targets: Targets, weight_decay: float) -> np.ndarray:
@@ -194,20 +129,3 @@ def _descend(columns: np.ndarray, targets: Targets, weight_decay: float) -> np.n
 def probabilities(logits: tuple[np.ndarray, np.ndarray]) -> tuple[np.ndarray, np.ndarray]:
     """How likely each type occurs (N, types), and its share of the grasps (N, types)."""
     return expit(logits[0]), softmax(logits[1], axis=1)
-
-
-def temperature(logits: np.ndarray, occurs: np.ndarray) -> float:
-    """The number by which logits must be divided to suit labels that were not learned from.
-
-    Args:
-        logits: (N, types) of the first output, of heads that have not seen these objects.
-        occurs: (N, types) 0 and 1.
-    """
-
-    def loss(log_temperature: float) -> float:
-        """Mean cross-entropy of the labels at a temperature."""
-        scaled = logits * np.exp(-log_temperature)
-        return float(np.mean(np.logaddexp(0, scaled) - occurs * scaled))
-
-    found = minimize_scalar(loss, bounds=np.log(TEMPERATURES), method="bounded")
-    return float(np.exp(found.x))

@@ -10,8 +10,7 @@ import pandas as pd
 
 from grasptypes.errors import InputError
 from grasptypes.labels.samples import COUNTS, LABELS
-from grasptypes.predictors.general import Inputs, Targets
-from grasptypes.predictors.general_inputs import FACTS, Pictures, TaskCode
+from grasptypes.predictors.general_inputs import FACTS, Inputs, Pictures, Targets, TaskCode
 from grasptypes.seeds import rng
 from grasptypes.settings.tasks import Task
 
@@ -71,6 +70,7 @@ class Known:
             self.samples[list(LABELS)].to_numpy(dtype=float)[rows],
             frequencies(self.samples)[rows],
             1 / counts[rows],
+            self.samples["object"].to_numpy()[rows],
         )
         return asked(shown, self.facts, [self.tasks[name] for name in tasks], code), targets
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import get_args
 
@@ -112,3 +112,74 @@ class TaskCode:
     def __call__(self, task: Task) -> np.ndarray:
         """Coordinates (K,) of a task."""
         return np.asarray((task_vector(task) - self.middle) @ self.directions)
+
+
+@dataclass(frozen=True)
+class Inputs:
+    """Rows to learn from or to answer, one per image and task.
+
+    Attributes:
+        features: (N, F) of the backbone.
+        classes: (N, C) log-probabilities of ImageNet's classes.
+        facts: (N, 4) of `general_inputs.FACTS`; NaN where unknown.
+        tasks: (N, K) coordinates of the task.
+    """
+
+    features: np.ndarray
+    classes: np.ndarray
+    facts: np.ndarray
+    tasks: np.ndarray
+
+    def __len__(self) -> int:
+        return len(self.features)
+
+    def rows(self, chosen: np.ndarray) -> Inputs:
+        """Some of the rows."""
+        return Inputs(*(array[chosen] for array in vars(self).values()))
+
+    def without(self, names: Sequence[str]) -> Inputs:
+        """The same rows, with some facts unknown."""
+        facts = self.facts.copy()
+        facts[:, [FACTS.index(name) for name in names]] = np.nan
+        return replace(self, facts=facts)
+
+
+@dataclass(frozen=True)
+class Targets:
+    """What is learned, one row per row of the inputs.
+
+    Attributes:
+        occurs: (N, types) 0 and 1.
+        shares: (N, types) frequencies, sum 1.
+        weights: (N,) of the rows.
+        objects: (N,) names.
+    """
+
+    occurs: np.ndarray
+    shares: np.ndarray
+    weights: np.ndarray
+    objects: np.ndarray
+
+
+@dataclass(frozen=True)
+class Projection:
+    """Leading principal directions of an array's columns, with equal variances."""
+
+    middle: np.ndarray
+    directions: np.ndarray
+
+    @classmethod
+    def of(cls, rows: np.ndarray, count: int, whitening: float) -> Projection:
+        """The `count` leading directions, whose variance to the power of `whitening` is removed."""
+        count = min(count, len(rows) - 1, rows.shape[1])
+        if count == 0:
+            return cls(rows.mean(axis=0), np.zeros((rows.shape[1], 0)))
+        from sklearn.decomposition import PCA  # answering needs no scikit-learn
+
+        found = PCA(count, svd_solver="randomized", random_state=0).fit(rows)
+        lengths = np.maximum(np.sqrt(found.explained_variance_), 1e-6)
+        scale = lengths**whitening * lengths[0] ** (1 - whitening)
+        return cls(found.mean_, found.components_.T / scale)
+
+    def __call__(self, rows: np.ndarray) -> np.ndarray:
+        return np.asarray((rows - self.middle) @ self.directions)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -13,19 +13,21 @@ from grasptypes.files import read_npz, write_npz
 from grasptypes.predictors.backbone import Backbone, load_backbone
 from grasptypes.predictors.class_scores import class_scores
 from grasptypes.predictors.features import for_inference, forward
-from grasptypes.predictors.general import GeneralHead, Inputs, Projection, probabilities
+from grasptypes.predictors.general import GeneralHead
 from grasptypes.predictors.general_backbone import weights_of
-from grasptypes.predictors.general_inputs import FACTS, TaskCode
+from grasptypes.predictors.general_inputs import FACTS, Inputs, Projection, TaskCode
+from grasptypes.predictors.memory import Memory
 from grasptypes.predictors.weights import Weights
 from grasptypes.records import Record
 from grasptypes.settings.base import Many
-from grasptypes.settings.general import HeadSettings
+from grasptypes.settings.general import HeadSettings, MemorySettings
 from grasptypes.settings.tasks import read_tasks
 
 GENERAL = "general"
 # The head that comes with the package; the rule train_general makes both files again.
 TRAINED = Path(__file__).with_name("trained")
 HEAD, CARD = "general.npz", "general.json"
+REMEMBERED = ("places", "facts", "tasks", "occurs", "shares")
 
 
 class GeneralCard(Record):
@@ -36,7 +38,6 @@ class GeneralCard(Record):
         learned: tasks of its examples.
         shapes: number of objects that it has learned from.
         head: settings of its head.
-        temperature: by which the logits of the first output are divided.
         backbone: name of its backbone.
         weights: name and checksum of the backbone's weights.
         input_px: size of the backbone's input image.
@@ -46,7 +47,6 @@ class GeneralCard(Record):
     learned: Many[str]
     shapes: int
     head: HeadSettings
-    temperature: float
     backbone: str
     weights: str
     input_px: int
@@ -98,7 +98,7 @@ class GeneralNetwork:
             np.tile(known, (count, 1)),
             np.tile(self.code(read_tasks()[task]), (count, 1)),
         )
-        occurs, shares = probabilities(self.head.logits(inputs))
+        occurs, shares = self.head.answers(inputs)
         return shares, occurs
 
 
@@ -116,8 +116,24 @@ def write_general(
         "task_middle": code.middle,
         "task_directions": code.directions,
     }
-    write_npz(target, {name: array.astype(np.float32) for name, array in arrays.items()})
+    named: dict[str, np.ndarray] = {}
+    if head.memory:
+        arrays |= {f"memory_{name}": getattr(head.memory, name) for name in REMEMBERED}
+        arrays["memory_middle"] = head.memory.looks.middle
+        arrays["memory_directions"] = head.memory.looks.directions
+        named = {"memory_objects": head.memory.objects.astype(np.str_)}
+    numbers = {name: array.astype(np.float32) for name, array in arrays.items()}
+    write_npz(target, {**numbers, **named})
     card.write(described)
+
+
+def _memory(arrays: Mapping[str, np.ndarray], settings: MemorySettings) -> Memory | None:
+    """The memory of a head, from its file."""
+    if not settings.directions:
+        return None
+    looks = Projection(arrays["memory_middle"], arrays["memory_directions"])
+    numbers = {name: arrays[f"memory_{name}"] for name in REMEMBERED}
+    return Memory(settings, arrays["memory_objects"], looks, **numbers)
 
 
 def load_general(
@@ -146,7 +162,7 @@ def load_general(
             Projection(arrays["classes_middle"], arrays["classes_directions"]),
             arrays["facts"],
             arrays["weights"],
-            card.temperature,
+            _memory(arrays, card.head.memory),
         )
         code = TaskCode(arrays["task_middle"], arrays["task_directions"])
     except KeyError as error:

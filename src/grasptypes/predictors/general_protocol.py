@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
 
 import numpy as np
 import pandas as pd
 import pandera.pandas as pa
-from scipy.special import expit, logit
 
 from grasptypes.labels.samples import LABELS, TYPES
-from grasptypes.predictors.general import GeneralHead, fit_head, probabilities, temperature
+from grasptypes.predictors.general import GeneralHead, fit_head
 from grasptypes.predictors.general_examples import Known, asked, family_folds, frequencies
 from grasptypes.predictors.general_inputs import FACTS, Pictures, TaskCode
+from grasptypes.seeds import rng
 from grasptypes.settings.general import HeadSettings
 from grasptypes.settings.tasks import Task
 
@@ -32,9 +32,10 @@ CONSTANT, SIZE_ONLY, GEOMETRY, TASK_VECTOR, IMAGE, WITH_SIZE, VIEWS, VIEWS_WITH_
     "general_views_size",
 )
 SIMULATED = "simulated"
-# Probabilities are kept this far from 0 and 1.
-LEAST = 1e-6
-KINDS, KIND_TASKS, OBJECTS, SCANS_KNOWN, SCANS, PHOTOGRAPHS_KNOWN, PHOTOGRAPHS = COLUMNS = (
+KINDS_KNOWN, KINDS, KIND_TASKS, OBJECTS, SCANS_KNOWN, SCANS, PHOTOGRAPHS_KNOWN, PHOTOGRAPHS = (
+    COLUMNS
+) = (
+    "kinds_known",
     "kinds",
     "kind_tasks",
     "objects",
@@ -79,7 +80,8 @@ class Heads:
         """Train on everything that is known."""
         code = TaskCode.of(known.tasks)
         inputs, targets = known.examples(code)
-        blind = settings.changed(pictures=0, classes=0)
+        forgetful = settings.memory.changed(directions=0)
+        blind = settings.changed(pictures=0, classes=0, memory=forgetful)
         means = known.samples[list(LABELS)].mean().to_numpy(), frequencies(known.samples).mean(0)
         return cls(
             code,
@@ -106,11 +108,11 @@ def answers(
         constant = np.tile(heads.constant[:, None], (1, len(inputs), 1))
         told = {
             CONSTANT: (constant[0], constant[1]),
-            IMAGE: probabilities(heads.whole.logits(inputs.without(FACTS))),
+            IMAGE: heads.whole.answers(inputs.without(FACTS)),
         }
         if np.isfinite(inputs.facts).any():
-            told[SIZE_ONLY] = probabilities(heads.size_only.logits(inputs))
-            told[WITH_SIZE] = probabilities(heads.whole.logits(inputs))
+            told[SIZE_ONLY] = heads.size_only.answers(inputs)
+            told[WITH_SIZE] = heads.whole.answers(inputs)
         parts += [answer_table(model, where, *told[model]) for model in told]
     return pd.concat(parts, ignore_index=True)
 
@@ -135,48 +137,20 @@ def answer_table(
     return pd.concat([where.assign(model=model), table], axis=1)
 
 
-def temperatures(table: pd.DataFrame, samples: pd.DataFrame) -> dict[str, float]:
-    """The temperature of each head, by the names of its models.
-
-    Args:
-        table: of :func:`answers`, about objects that the heads had not seen.
-        samples: their labels.
-    """
-    labels = samples.set_index(["object", "task"])[list(LABELS)]
-    found: dict[str, float] = {}
-    for models in ((IMAGE, WITH_SIZE), (SIZE_ONLY,)):
-        rows = table[table["model"].isin(models)]
-        pairs = pd.MultiIndex.from_frame(rows[["object", "task"]])
-        known = pairs.isin(labels.index)
-        occurs = labels.loc[pairs[known]].to_numpy(dtype=float)
-        fitted = temperature(_logits(rows[known]), occurs)
-        found |= dict.fromkeys(models, fitted)
-    return found
-
-
-def finished(
-    table: pd.DataFrame, heat: Mapping[str, float], shown: str, labels: str
-) -> pd.DataFrame:
-    """Calibrated answers, those from all views of an object together among them.
+def finished(table: pd.DataFrame, shown: str, labels: str) -> pd.DataFrame:
+    """Answers with those from all views of an object together among them.
 
     Args:
         table: of :func:`answers`.
-        heat: of :func:`temperatures`.
         shown: name of the column.
         labels: source of the labels learned from.
 
     Returns:
         a table of :data:`ANSWER_SCHEMA`.
     """
-    calm = table.copy()
-    for model, value in heat.items():
-        rows = calm["model"] == model
-        occurs = expit(_logits(calm[rows]) / value)
-        calm.loc[rows, list(OCCURS)] = occurs
-        calm.loc[rows, list(DIRECTION)] = occurs / occurs.sum(axis=1, keepdims=True)
-    parts = [calm]
+    parts = [table]
     for model, together in ((IMAGE, VIEWS), (WITH_SIZE, VIEWS_WITH_SIZE)):
-        views = calm[calm["model"] == model].drop(columns=["model", "view"])
+        views = table[table["model"] == model].drop(columns=["model", "view"])
         if views.empty:
             continue
         mean = views.groupby(["object", "task"], as_index=False).mean()
@@ -185,44 +159,40 @@ def finished(
     return whole[list(ANSWER_SCHEMA.columns)]
 
 
-def _logits(table: pd.DataFrame) -> np.ndarray:
-    chance = np.clip(table[list(OCCURS)].to_numpy(dtype=float), LEAST, 1 - LEAST)
-    return np.asarray(logit(chance))
-
-
-def hold_out_kinds(
-    known: Known, settings: HeadSettings, folds: int, seed: int
-) -> list[pd.DataFrame]:
-    """Answers about kinds whose families were held out, uncalibrated; a table per fold."""
+def hold_out_kinds(known: Known, settings: HeadSettings, folds: int, seed: int) -> pd.DataFrame:
+    """Answers about kinds whose families were held out."""
     found = []
     for fold in family_folds(known.families, folds, seed):
         test = known.only([name for name in known.facts.index if known.families[name] & fold])
         heads = Heads.of(known.without(fold), settings)
         found.append(answers(heads, test.pictures, test.facts, known.tasks))
-    return found
+    return finished(pd.concat(found, ignore_index=True), KINDS, SIMULATED)
 
 
-def hold_out_tasks(
-    known: Known, settings: HeadSettings, folds: int, seed: int
-) -> list[pd.DataFrame]:
+def hold_out_tasks(known: Known, settings: HeadSettings, folds: int, seed: int) -> pd.DataFrame:
     """As :func:`hold_out_kinds`, but of what is held out, only the labels of one task at a time."""
     found = []
     for fold in family_folds(known.families, folds, seed):
         test = known.only([name for name in known.facts.index if known.families[name] & fold])
-        tables = []
         for name, task in known.tasks.items():
             heads = Heads.of(known.without_labels(fold, name), settings)
-            tables.append(answers(heads, test.pictures, test.facts, {name: task}))
-        found.append(pd.concat(tables, ignore_index=True))
-    return found
+            found.append(answers(heads, test.pictures, test.facts, {name: task}))
+    return finished(pd.concat(found, ignore_index=True), KIND_TASKS, SIMULATED)
 
 
-def calibrated_folds(
-    folds: Sequence[pd.DataFrame], samples: pd.DataFrame, shown: str = KINDS
-) -> pd.DataFrame:
-    """The answers about held-out kinds, each fold calibrated on the others."""
-    tables = []
-    for number, table in enumerate(folds):
-        others = pd.concat([*folds[:number], *folds[number + 1 :]])
-        tables.append(finished(table, temperatures(others, samples), shown, SIMULATED))
-    return pd.concat(tables, ignore_index=True)
+def hold_out_images(known: Known, settings: HeadSettings, seed: int) -> pd.DataFrame:
+    """Answers about every second image of known kinds, as of other objects of the same kinds.
+
+    Their sizes and masses differ as `memory` says that those of other objects do.
+    """
+    place = pd.Series(known.pictures.objects).groupby(known.pictures.objects).cumcount().to_numpy()
+    heads = Heads.of(replace(known, pictures=known.pictures.rows(place % 2 == 0)), settings)
+    spread = settings.memory.spread()
+    other = known.facts + np.stack(
+        [
+            spread * rng("another object", name, seed).normal(size=len(FACTS))
+            for name in known.facts.index
+        ]
+    )
+    told = answers(heads, known.pictures.rows(place % 2 == 1), other, known.tasks)
+    return finished(told, KINDS_KNOWN, SIMULATED)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import pandas as pd
 
@@ -13,19 +13,16 @@ from grasptypes.predictors.general_examples import Families, Known
 from grasptypes.predictors.general_inputs import Pictures, TaskCode, joined
 from grasptypes.predictors.general_protocol import (
     GEOMETRY,
-    KIND_TASKS,
     KINDS,
     SIMULATED,
     WITH_SIZE,
     Heads,
     answers,
-    calibrated_folds,
     finished,
     hold_out_kinds,
     hold_out_tasks,
-    temperatures,
 )
-from grasptypes.settings.general import GeneralSettings, HeadSettings
+from grasptypes.settings.general import HeadSettings
 from grasptypes.settings.predictors import PredictorSettings
 
 NOTHING: frozenset[str] = frozenset()
@@ -89,20 +86,14 @@ def together(kinds: Known, objects: Known) -> Known:
 
 
 def answer_everything(study: Study, head: HeadSettings, folds: int, seed: int) -> pd.DataFrame:
-    """The answers of the heads in all columns: a table of `general_protocol.ANSWER_SCHEMA`.
-
-    Temperatures come from kinds alone, with heads that have not learned from the objects.
+    """The answers of the heads about what is held out: a table of `general_protocol.ANSWER_SCHEMA`.
 
     Args:
         folds: groups of kinds, each held out in turn.
     """
-    samples = study.kinds.samples
-    out_of_fold = hold_out_kinds(study.kinds, head, folds, seed)
-    heat = temperatures(pd.concat(out_of_fold), samples)
-    one_task_out = hold_out_tasks(study.kinds, head, folds, seed)
     tables = [
-        calibrated_folds(out_of_fold, samples),
-        calibrated_folds(one_task_out, samples, KIND_TASKS),
+        hold_out_kinds(study.kinds, head, folds, seed),
+        hold_out_tasks(study.kinds, head, folds, seed),
     ]
     everything, tasks = together(study.kinds, study.objects), study.kinds.tasks
     heads: dict[frozenset[str], Heads] = {}
@@ -111,7 +102,7 @@ def answer_everything(study: Study, head: HeadSettings, folds: int, seed: int) -
             if out not in heads:
                 heads[out] = Heads.of(everything.without(out), head)
             told = answers(heads[out], test.pictures.of(names), test.facts, tasks)
-            tables.append(finished(told, heat, test.shown, SIMULATED))
+            tables.append(finished(told, test.shown, SIMULATED))
     return pd.concat(tables, ignore_index=True)
 
 
@@ -126,13 +117,11 @@ def answer_by_shape(study: Study, head: HeadSettings, folds: int, seed: int) -> 
 
 
 def final_head(
-    kinds: Known, objects: Known, settings: GeneralSettings, seed: int
+    kinds: Known, objects: Known, settings: HeadSettings
 ) -> tuple[GeneralHead, TaskCode]:
-    """The head that has learned from everything, calibrated on held-out kinds."""
-    folds = hold_out_kinds(kinds, settings.head, settings.protocol.folds, seed)
-    heat = temperatures(pd.concat(folds), kinds.samples)
-    heads = Heads.of(together(kinds, objects), settings.head)
-    return replace(heads.whole, temperature=heat[WITH_SIZE]), heads.code
+    """The head that has learned from everything."""
+    heads = Heads.of(together(kinds, objects), settings)
+    return heads.whole, heads.code
 
 
 def first_views(pictures: Pictures, count: int) -> Pictures:
@@ -161,5 +150,5 @@ def answer_as_paper(study: Study, settings: PredictorSettings, seed: int) -> pd.
 
 def _named(table: pd.DataFrame, shown: str, source: str) -> pd.DataFrame:
     """A baseline's table with its column and label source; it has no answer from all views."""
-    whole = finished(table, {}, shown, source)
+    whole = finished(table, shown, source)
     return whole[whole["model"].isin(set(table["model"]))]

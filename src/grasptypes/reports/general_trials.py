@@ -14,17 +14,20 @@ from grasptypes.predictors.general_examples import Known, family_folds
 from grasptypes.predictors.general_inputs import Pictures
 from grasptypes.predictors.general_protocol import (
     CONSTANT,
+    KINDS,
     SIMULATED,
     SIZE_ONLY,
     VIEWS,
     VIEWS_WITH_SIZE,
     Heads,
     answers,
-    calibrated_folds,
+    finished,
+    hold_out_images,
 )
 from grasptypes.reports.table3 import TABLE_SCHEMA, tabulate
 from grasptypes.seeds import rng
-from grasptypes.settings.general import BACKBONE, KINDS, GeneralSettings
+from grasptypes.settings.general import BACKBONE, GeneralSettings
+from grasptypes.settings.general import KINDS as KINDS_TRIAL
 
 LOGGER = logging.getLogger("grasptypes")
 CURVES = {
@@ -36,6 +39,7 @@ CURVES = {
 COLUMNS = ("model", "similarity", "similarity_se", "similarity_shares", "calibration_error")
 TRIAL_SCHEMA = pa.DataFrameSchema(
     {
+        "shown": TABLE_SCHEMA.columns["shown"],
         "setting": pa.Column(str, description="of the head, or the number of kinds"),
         "value": pa.Column(str, coerce=True),
         "learned": pa.Column(float, description="shapes learned from, mean over the folds"),
@@ -45,7 +49,7 @@ TRIAL_SCHEMA = pa.DataFrameSchema(
     },
     strict=True,
     ordered=True,
-    unique=["setting", "value", "model"],
+    unique=["shown", "setting", "value", "model"],
 )
 
 
@@ -61,7 +65,7 @@ def try_settings(
     tables = []
     for key, values in settings.trials.items():
         for value in values:
-            pictures = others[value] if key == BACKBONE else known.pictures
+            pictures = others[str(value)] if key == BACKBONE else known.pictures
             seen = replace(known, pictures=pictures.of(known.facts.index))
             table = _try(seen, settings, (key, value), seed)
             tables.append(table.assign(setting=key, value=str(value)))
@@ -83,8 +87,12 @@ def _try(
         learned.append(len(left.facts))
         heads = Heads.of(left, head)
         folds.append(answers(heads, test.pictures, test.facts, known.tasks))
-    told = calibrated_folds(folds, known.samples)
-    table = tabulate(told, {SIMULATED: known.samples}, [], settings.protocol.bins)
+    told = [finished(pd.concat(folds, ignore_index=True), KINDS, SIMULATED)]
+    if not count:
+        told.append(hold_out_images(known, head, seed))
+    table = tabulate(
+        pd.concat(told, ignore_index=True), {SIMULATED: known.samples}, [], settings.protocol.bins
+    )
     return table.assign(learned=sum(learned) / len(learned))
 
 
@@ -99,7 +107,7 @@ def draw_curve(table: pd.DataFrame) -> Figure:
     Args:
         table: of `TRIAL_SCHEMA`, with trials of the number of kinds.
     """
-    rows = table[table["setting"] == KINDS]
+    rows = table[(table["setting"] == KINDS_TRIAL) & (table["shown"] == KINDS)]
     figure = Figure(figsize=(6.4, 4.2), layout="constrained")
     axes = figure.subplots()
     for model, colour in CURVES.items():

@@ -44,13 +44,9 @@ def general_record(
         tags: what is not part of the result.
     """
     settings, seed = how
-    params = {
-        name: str(value)
-        for name, value in {
-            **{"labels": SIMULATED, "model": GENERAL, "backbone": settings.backbone},
-            **settings.head.model_dump(),
-        }.items()
-    }
+    flat = pd.json_normalize(settings.head.model_dump()).to_dict("records")[0]
+    stated = {"labels": SIMULATED, "model": GENERAL, "backbone": settings.backbone, **flat}
+    params = {name: str(value) for name, value in stated.items()}
     content = json.dumps([params, table.to_dict("records")], sort_keys=True)
     key = _digest(content)
     asked = answers[(answers["shown"] == KINDS) & (answers["model"] == WITH_SIZE)]

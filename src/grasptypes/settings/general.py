@@ -94,8 +94,25 @@ class ProtocolSettings(Settings):
     )
 
 
+class MemorySettings(Settings):
+    """How objects that were learned from are recognised."""
+
+    directions: int = setting("principal directions of the features; 0: no memory", ge=0, le=4096)
+    shrinkage: Share = setting("of the covariance of an object's images towards a round one")
+    temperature: float = setting("by which the logits of the objects are divided", gt=0, le=100)
+    size_spread: float = setting(
+        "standard deviation of the logarithm of an extent among objects of a kind", gt=0, le=10
+    )
+    mass_spread: float = setting("the same of the mass", gt=0, le=10)
+    known: Share = setting("share of the objects shown that are like one learned from")
+
+    def spread(self) -> list[float]:
+        """Standard deviations of the three extents and of the mass."""
+        return [self.size_spread] * 3 + [self.mass_spread]
+
+
 class HeadSettings(Settings):
-    """The linear head. Zero components leave an input out."""
+    """The linear head, and its memory. Zero components leave an input out."""
 
     pictures: int = setting("principal directions of the features", ge=0, le=4096)
     classes: int = setting("principal directions of the classes' log-probabilities", ge=0, le=1000)
@@ -106,6 +123,7 @@ class HeadSettings(Settings):
     fact_scale: float = setting("factor on size and mass", gt=0, le=100)
     task_scale: float = setting("factor on the task", gt=0, le=100)
     weight_decay: float = setting("of all weights but the constant", ge=0, le=100)
+    memory: MemorySettings
 
 
 # Trials that are not of the head.
@@ -142,4 +160,7 @@ class GeneralSettings(Settings):
         if key == BACKBONE:
             TypeAdapter(Backbone).validate_python(value)
             return self.head, 0
-        return HeadSettings.model_validate(self.head.model_dump() | {key: value}), 0
+        section, _, name = key.rpartition(".")
+        whole = self.head.model_dump()
+        changed = {section: whole[section] | {name: value}} if section else {name: value}
+        return HeadSettings.model_validate(whole | changed), 0

@@ -9,17 +9,17 @@ from tests.unit.settings import PARAMS
 
 from grasptypes.errors import InputError
 from grasptypes.labels.samples import COUNTS, samples_from_counts
-from grasptypes.predictors.general import fit_head, probabilities, temperature
+from grasptypes.predictors.general import fit_head, probabilities
 from grasptypes.predictors.general_examples import Known, family_folds
 from grasptypes.predictors.general_inputs import FACTS, Pictures, TaskCode
 from grasptypes.predictors.general_protocol import (
     ANSWER_SCHEMA,
     CONSTANT,
     IMAGE,
+    KINDS,
     SIZE_ONLY,
     VIEWS_WITH_SIZE,
     WITH_SIZE,
-    calibrated_folds,
     hold_out_kinds,
 )
 from grasptypes.reports.general_trials import TRIAL_SCHEMA, draw_curve, try_settings
@@ -27,7 +27,8 @@ from grasptypes.reports.table3 import TABLE_SCHEMA, markdown, tabulate
 from grasptypes.settings.general import GeneralSettings
 from grasptypes.settings.tasks import read_tasks
 
-HEAD = PARAMS.general.head.changed(pictures=4, classes=3, weight_decay=0.003)
+MEMORY = PARAMS.general.head.memory.changed(directions=0)
+HEAD = PARAMS.general.head.changed(pictures=4, classes=3, weight_decay=0.003, memory=MEMORY)
 TASKS = {name: read_tasks()[name] for name in ("use", "handoff")}
 NUMBER, VIEWS = 40, 3
 
@@ -56,7 +57,7 @@ def known():
 
 @pytest.fixture(scope="module")
 def answers(known):
-    return calibrated_folds(hold_out_kinds(known, HEAD, 4, 0), known.samples)
+    return hold_out_kinds(known, HEAD, 4, 0)
 
 
 def test_heads_learn_what_size_tells(known, answers):
@@ -88,13 +89,6 @@ def test_relatives_are_never_learned_from(known, answers):
     assert len(one) == NUMBER * VIEWS * len(TASKS)
 
 
-def test_temperature_finds_how_much_logits_exaggerate():
-    random = np.random.default_rng(0)
-    logits = random.normal(size=(4000, 6))
-    occurs = random.random(logits.shape) < 1 / (1 + np.exp(-logits))
-    assert temperature(3 * logits, occurs) == pytest.approx(3, rel=0.1)
-
-
 def test_a_new_task_has_coordinates_between_those_learned():
     code = TaskCode.of(TASKS)
     use, handoff = (code(task)[0] for task in TASKS.values())
@@ -118,7 +112,7 @@ def test_trials_change_one_setting_at_a_time(known):
     others = {"mobilenet_v2": replace(known.pictures, features=telling)}
     table = try_settings(known, others, settings, 0)
     TRIAL_SCHEMA.validate(table)
-    row = table.set_index(["setting", "value", "model"])
+    row = table[table["shown"] == KINDS].set_index(["setting", "value", "model"])
     few, many, blind = (
         row.loc[(*key, WITH_SIZE)] for key in (("kinds", "4"), ("kinds", "40"), ("facts", "False"))
     )

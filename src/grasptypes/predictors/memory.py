@@ -1,0 +1,118 @@
+"""The objects that a predictor has learned from, and how well an image and a size suit each.
+
+A linear head cannot remember single objects. What is recognised is answered from memory, and the
+more the less it could be something else: a mixture of experts (Jacobs et al. 1991).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.special import log_softmax, softmax
+
+from grasptypes.predictors.general_inputs import Inputs, Projection, Targets
+from grasptypes.settings.general import MemorySettings
+
+
+@dataclass(frozen=True)
+class Memory:
+    """What is known of each object.
+
+    Attributes:
+        objects: (C,) names.
+        looks: projection of features in which images of one object vary by 1 in all directions.
+        places: (C, D) mean of each object's images there.
+        facts: (C, 4) of `general_inputs.FACTS`.
+        tasks: (T, K) coordinates of the tasks learned from.
+        occurs: (T, C, types) which types each object has for a task; NaN where nobody knows.
+        shares: (T, C, types) how often.
+    """
+
+    settings: MemorySettings
+    objects: np.ndarray
+    looks: Projection
+    places: np.ndarray
+    facts: np.ndarray
+    tasks: np.ndarray
+    occurs: np.ndarray
+    shares: np.ndarray
+
+    @classmethod
+    def of(cls, inputs: Inputs, targets: Targets, settings: MemorySettings) -> Memory:
+        """Remember the objects of some examples.
+
+        Linear discriminant analysis with a shrunken covariance (Ledoit and Wolf 2004), after
+        a projection to the leading directions.
+        """
+        names, index = np.unique(targets.objects, return_inverse=True)
+        leading = Projection.of(inputs.features, settings.directions, 0.0)
+        seen = leading(inputs.features)
+        within = seen - _means(seen, index)[index]
+        covariance = within.T @ within / max(len(seen) - len(names), 1)
+        round_ = np.eye(len(covariance)) * np.trace(covariance) / len(covariance)
+        mixed = (1 - settings.shrinkage) * covariance + settings.shrinkage * round_
+        variance, axes = np.linalg.eigh(mixed)
+        directions = leading.directions @ (axes / np.sqrt(variance))
+        looks = Projection(leading.middle, directions)
+        tasks, task = np.unique(inputs.tasks, axis=0, return_inverse=True)
+        known = np.full((2, len(tasks), len(names), targets.occurs.shape[1]), np.nan)
+        known[0, task.ravel(), index] = targets.occurs
+        known[1, task.ravel(), index] = targets.shares
+        return cls(
+            settings,
+            names,
+            looks,
+            _means(looks(inputs.features), index),
+            _means(inputs.facts, index),
+            tasks,
+            *known,
+        )
+
+    def chances(self, features: np.ndarray, facts: np.ndarray) -> np.ndarray:
+        """How likely each known object is shown, and in the last column something else (N, C + 1).
+
+        The image tells which of the known objects it may be; the size tells besides how
+        likely it is any of them.
+
+        Args:
+            features: (N, F) of the backbone.
+            facts: (N, 4); NaN where unknown.
+        """
+        settings, seen = self.settings, self.looks(features)
+        # Squared distances, without what is the same for all objects.
+        far = (self.places**2).sum(axis=1) - 2 * seen @ self.places.T
+        alike = log_softmax(-far / (2 * settings.temperature), axis=1)
+        middle, spread = self.facts.mean(axis=0), self.facts.std(axis=0)
+        known = alike + _log_density(facts[:, None] - self.facts, np.array(settings.spread()))
+        other = _log_density(facts - middle, spread)
+        prior = np.log([settings.known, 1 - settings.known])
+        return np.asarray(softmax(np.column_stack([known + prior[0], other + prior[1]]), axis=1))
+
+    def mixed(
+        self, occurs: np.ndarray, shares: np.ndarray, inputs: Inputs
+    ) -> tuple[np.ndarray, np.ndarray]:
+        """Answers (N, types) mixed with those from memory, for tasks that were learned."""
+        chances = self.chances(inputs.features, inputs.facts)
+        found = occurs.copy(), shares.copy()
+        for number, task in enumerate(self.tasks):
+            rows = np.isclose(inputs.tasks, task, atol=1e-4).all(axis=1)
+            known = np.isfinite(self.occurs[number, :, 0])
+            weights = chances[rows][:, [*known, True]]
+            weights /= weights.sum(axis=1, keepdims=True)
+            for mix, memory in zip(found, (self.occurs, self.shares), strict=True):
+                mix[rows] = weights[:, :-1] @ memory[number, known] + weights[:, -1:] * mix[rows]
+        return found[0], found[1]
+
+
+def _means(rows: np.ndarray, index: np.ndarray) -> np.ndarray:
+    """Mean of the rows (N, D) with each index."""
+    totals = np.zeros((index.max() + 1, rows.shape[1]))
+    np.add.at(totals, index, rows)
+    return np.asarray(totals / np.bincount(index)[:, None])
+
+
+def _log_density(off: np.ndarray, spread: np.ndarray) -> np.ndarray:
+    """Of normal distributions (..., 4), summed over what is known, but for a constant."""
+    terms = (off / spread) ** 2 / 2 + np.log(spread)
+    return np.asarray(-np.nansum(terms, axis=-1))

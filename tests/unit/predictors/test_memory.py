@@ -1,0 +1,77 @@
+"""What was learned is recognised and answered from memory; everything else is left to the head."""
+
+import numpy as np
+import pytest
+from tests.unit.settings import PARAMS
+
+from grasptypes.predictors.general_inputs import Inputs, Targets
+from grasptypes.predictors.memory import Memory
+
+NAMES = np.array(["bead", "rope", "vase"])
+TASKS = np.array([[-1.0], [1.0]])
+VIEWS = 6
+SETTINGS = PARAMS.general.head.memory.changed(directions=4, size_spread=0.1, mass_spread=0.3)
+# Probability of the types by the head.
+OCCURS, SHARES = np.array([[0.5, 0.5, 0.5]]), np.array([[0.2, 0.3, 0.5]])
+
+
+def facts_of(number):
+    return np.array([-2.0, -2.5, -3.0, -1.0]) + number
+
+
+@pytest.fixture(scope="module")
+def memory():
+    """Three objects that look different in the first two features; each has a type of its own.
+
+    Nobody has used the vase.
+    """
+    random = np.random.default_rng(0)
+    object_, task = (each.ravel() for each in np.meshgrid(range(3), range(2), indexing="ij"))
+    known = ~((object_ == 2) & (task == 0))
+    object_, task = np.repeat(object_[known], VIEWS), np.repeat(task[known], VIEWS)
+    looks = np.array([[0, 0], [5, 0], [0, 5]])[object_]
+    features = np.hstack([looks, np.zeros((len(looks), 4))]) + random.normal(size=(len(looks), 6))
+    inputs = Inputs(
+        features,
+        np.zeros((len(looks), 0)),
+        np.stack([facts_of(number) for number in object_]),
+        TASKS[task],
+    )
+    types = np.eye(3)[object_]
+    return Memory.of(inputs, Targets(types, types, np.ones(len(looks)), NAMES[object_]), SETTINGS)
+
+
+def asked(look, facts, task):
+    features = np.array([[*look, 0, 0, 0, 0]], dtype=float)
+    return Inputs(features, np.zeros((1, 0)), np.array([facts]), np.array([task]))
+
+
+def test_an_image_tells_which_object_it_may_be_and_the_size_whether_it_is_one(memory):
+    nothing = np.full(4, np.nan)
+    unknown, right, wrong = (
+        memory.chances(np.array([[5.0, 0, 0, 0, 0, 0]]), facts[None])[0]
+        for facts in (nothing, facts_of(1), facts_of(9))
+    )
+    assert unknown[:3].argmax() == right[:3].argmax() == 1
+    assert unknown[-1] == pytest.approx(1 - SETTINGS.known)
+    assert right[-1] < 0.1
+    assert wrong[-1] > 0.99
+    only_longest = np.array([facts_of(1)[0], *nothing[1:]])
+    partly = memory.chances(np.array([[5.0, 0, 0, 0, 0, 0]]), only_longest[None])[0]
+    assert right[-1] < partly[-1] < unknown[-1]
+
+
+def test_what_is_recognised_is_answered_from_memory(memory):
+    occurs, shares = memory.mixed(OCCURS, SHARES, asked((5, 0), facts_of(1), TASKS[0]))
+    assert occurs[0, 1] > 0.9
+    assert shares.sum() == pytest.approx(1)
+    occurs, shares = memory.mixed(OCCURS, SHARES, asked((5, 0), facts_of(9), TASKS[0]))
+    np.testing.assert_allclose([occurs, shares], [OCCURS, SHARES], atol=0.02)
+
+
+def test_other_tasks_and_unlabelled_objects_are_left_to_the_head(memory):
+    asked_for = asked((5, 0), facts_of(1), [0.3])
+    np.testing.assert_array_equal(memory.mixed(OCCURS, SHARES, asked_for)[0], OCCURS)
+    occurs, _ = memory.mixed(OCCURS, SHARES, asked((0, 5), facts_of(2), TASKS[0]))
+    assert np.isfinite(occurs).all()
+    assert occurs[0, 2] < 0.6
