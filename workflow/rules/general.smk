@@ -141,6 +141,8 @@ rule evaluate_general:
         predictors=config["predictors"],
         labels=LABELS,
         tasks=TASKS,
+        scans=scanned(),
+        meshes=hashes(scanned().values()),
         seed=config["seed"],
         code=script_hash("evaluate_general"),
     message:

@@ -15,8 +15,9 @@ from grasptypes.predictors.general_files import (
     read_known_kinds,
     read_known_objects,
     read_pictures_of,
+    scan_facts,
 )
-from grasptypes.predictors.general_inputs import FACTS
+from grasptypes.predictors.general_inputs import FACTS, spread_of
 from grasptypes.predictors.general_protocol import (
     ANSWER_SCHEMA,
     OBJECTS,
@@ -40,15 +41,18 @@ from grasptypes.tables import write_table
 
 
 def read_study(
-    files: Mapping[str, Any], labels: Sequence[str], tasks: Sequence[str], settings: GeneralSettings
+    files: Mapping[str, Any],
+    named: tuple[Sequence[str], Sequence[str], Mapping[str, str]],
+    settings: GeneralSettings,
 ) -> Study:
     """Everything that the protocol needs.
 
     Args:
         files: images of kinds, objects and renders, of scans and photographs if there are any;
             properties and samples.
-        labels: sources of the samples of objects, in order.
+        named: sources of the samples of objects, in order; tasks; meshes of scans in metres.
     """
+    labels, tasks, meshes = named
     kinds = read_known_kinds(files["kinds"], files["kind_samples"], files["kind_properties"], tasks)
     objects = read_known_objects(
         files["objects"],
@@ -66,10 +70,10 @@ def read_study(
     shown = first_views(renders, settings.protocol.test_views)
     tests = [Test(OBJECTS, shown, facts, objects.families, held_out=True)]
     if files["scans"]:
-        scans = read_pictures_of(files["scans"])
+        scans, sizes = read_pictures_of(files["scans"]), scan_facts(meshes, facts)
         tests += [
-            Test(SCANS_KNOWN, scans, facts, objects.families, held_out=False),
-            Test(SCANS, scans, facts, objects.families, held_out=True),
+            Test(SCANS_KNOWN, scans, sizes, objects.families, held_out=False),
+            Test(SCANS, scans, sizes, objects.families, held_out=True),
         ]
     if files["photographs"]:
         photographs = read_pictures_of(files["photographs"])
@@ -89,11 +93,13 @@ if __name__ == "__main__":
         params = snakemake.params
         settings = GeneralSettings.check(params.settings)
         files, folds = dict(snakemake.input.items()), settings.protocol.folds
-        study = read_study(files, params.labels, params.tasks, settings)
+        other = spread_of(settings.protocol.size_spread, settings.protocol.mass_spread)
+        named = params.labels, params.tasks, params.scans
+        study = read_study(files, named, settings)
         of_kinds, of_objects = files["shapes"]
         shapes = {"kinds": of_kinds, "objects": of_objects, "renders": of_objects}
         shapes |= {"scans": files["scan_shapes"], "photographs": []}
-        shaped = read_study(files | shapes, params.labels, params.tasks, settings)
+        shaped = read_study(files | shapes, named, settings)
         by_shape = settings.head.changed(
             pictures=settings.protocol.shape_directions,
             classes=0,
@@ -101,7 +107,7 @@ if __name__ == "__main__":
         )
         baseline = PredictorSettings.check(params.predictors)
         answers = [
-            hold_out_images(study.kinds, settings.head, params.seed),
+            hold_out_images(study.kinds, settings.head, other, params.seed),
             answer_everything(study, settings.head, folds, params.seed),
             answer_by_shape(shaped, by_shape, folds, params.seed),
             answer_as_paper(study, baseline, params.seed),

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pandas as pd
+import trimesh
 
 from grasptypes.errors import InputError
 from grasptypes.files import read_npz, write_npz
@@ -14,7 +15,7 @@ from grasptypes.kinds.library import read_kind
 from grasptypes.kinds.names import shape_of
 from grasptypes.labels.samples import read_samples
 from grasptypes.predictors.general_examples import Known
-from grasptypes.predictors.general_inputs import Pictures, object_facts
+from grasptypes.predictors.general_inputs import SIZE, Pictures, object_facts
 from grasptypes.settings.tasks import read_tasks
 
 
@@ -79,6 +80,20 @@ def read_known_objects(
         object_families(list(facts.index), families),
         kinds.tasks,
     )
+
+
+def scan_facts(scans: Mapping[str, str], facts: pd.DataFrame) -> pd.DataFrame:
+    """Sizes of scans as measured on their meshes, and masses as of our models.
+
+    Args:
+        scans: files of meshes in metres, by the name of the object.
+        facts: of our models, see `general_inputs.object_facts`.
+    """
+    found = facts.loc[list(scans)].copy()
+    for name, path in scans.items():
+        extents_m = trimesh.load_mesh(path).extents
+        found.loc[name, list(SIZE)] = np.log(np.sort(extents_m)[::-1])
+    return found
 
 
 def labelled(samples: pd.DataFrame, names: Iterable[str]) -> pd.DataFrame:

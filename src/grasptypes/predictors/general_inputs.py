@@ -69,6 +69,11 @@ def facts_of(known: Properties) -> list[float]:
     return [*np.log(np.sort(high - low)[::-1]), float(np.log(known.mass_kg))]
 
 
+def spread_of(size: float, mass: float) -> np.ndarray:
+    """Standard deviations (4,) of :data:`FACTS`, of each extent and of the mass."""
+    return np.array([size] * len(SIZE) + [mass])
+
+
 def task_vector(task: Task) -> np.ndarray:
     """What a task demands of roles and hands: (D,), each number between about 0 and 1.
 

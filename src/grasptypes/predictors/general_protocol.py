@@ -180,14 +180,16 @@ def hold_out_tasks(known: Known, settings: HeadSettings, folds: int, seed: int) 
     return finished(pd.concat(found, ignore_index=True), KIND_TASKS, SIMULATED)
 
 
-def hold_out_images(known: Known, settings: HeadSettings, seed: int) -> pd.DataFrame:
+def hold_out_images(
+    known: Known, settings: HeadSettings, spread: np.ndarray, seed: int
+) -> pd.DataFrame:
     """Answers about every second image of known kinds, as of other objects of the same kinds.
 
-    Their sizes and masses differ as `memory` says that those of other objects do.
+    Args:
+        spread: (4,) standard deviations by which their sizes and masses differ.
     """
     place = pd.Series(known.pictures.objects).groupby(known.pictures.objects).cumcount().to_numpy()
     heads = Heads.of(replace(known, pictures=known.pictures.rows(place % 2 == 0)), settings)
-    spread = settings.memory.spread()
     other = known.facts + np.stack(
         [
             spread * rng("another object", name, seed).normal(size=len(FACTS))

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.special import log_softmax, softmax
 
-from grasptypes.predictors.general_inputs import Inputs, Projection, Targets
+from grasptypes.predictors.general_inputs import Inputs, Projection, Targets, spread_of
 from grasptypes.settings.general import MemorySettings
 
 
@@ -84,7 +84,8 @@ class Memory:
         far = (self.places**2).sum(axis=1) - 2 * seen @ self.places.T
         alike = log_softmax(-far / (2 * settings.temperature), axis=1)
         middle, spread = self.facts.mean(axis=0), self.facts.std(axis=0)
-        known = alike + _log_density(facts[:, None] - self.facts, np.array(settings.spread()))
+        own = spread_of(settings.size_spread, settings.mass_spread)
+        known = alike + _log_density(facts[:, None] - self.facts, own)
         other = _log_density(facts - middle, spread)
         prior = np.log([settings.known, 1 - settings.known])
         return np.asarray(softmax(np.column_stack([known + prior[0], other + prior[1]]), axis=1))

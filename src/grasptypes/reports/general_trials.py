@@ -11,7 +11,7 @@ import pandera.pandas as pa
 from matplotlib.figure import Figure
 
 from grasptypes.predictors.general_examples import Known, family_folds
-from grasptypes.predictors.general_inputs import Pictures
+from grasptypes.predictors.general_inputs import Pictures, spread_of
 from grasptypes.predictors.general_protocol import (
     CONSTANT,
     KINDS,
@@ -89,7 +89,8 @@ def _try(
         folds.append(answers(heads, test.pictures, test.facts, known.tasks))
     told = [finished(pd.concat(folds, ignore_index=True), KINDS, SIMULATED)]
     if not count:
-        told.append(hold_out_images(known, head, seed))
+        other = spread_of(settings.protocol.size_spread, settings.protocol.mass_spread)
+        told.append(hold_out_images(known, head, other, seed))
     table = tabulate(
         pd.concat(told, ignore_index=True), {SIMULATED: known.samples}, [], settings.protocol.bins
     )

@@ -88,6 +88,10 @@ class ProtocolSettings(Settings):
     folds: int = setting("groups of kinds, each held out in turn", ge=2, le=100)
     test_views: int = setting("images of each object that are tested", ge=1, le=1000)
     bins: int = setting("bins of the expected calibration error", ge=2, le=100)
+    size_spread: float = setting(
+        "standard deviation of the logarithm of an extent among objects of a kind", ge=0, le=10
+    )
+    mass_spread: float = setting("the same of the mass", ge=0, le=10)
     shape_directions: int = setting("principal directions of shapes in numbers", ge=1, le=100)
     families: dict[Name, Annotated[Unique[Name], Field(min_length=1)]] = setting(
         "families of kinds that each object of the paper is held out with"
@@ -100,15 +104,9 @@ class MemorySettings(Settings):
     directions: int = setting("principal directions of the features; 0: no memory", ge=0, le=4096)
     shrinkage: Share = setting("of the covariance of an object's images towards a round one")
     temperature: float = setting("by which the logits of the objects are divided", gt=0, le=100)
-    size_spread: float = setting(
-        "standard deviation of the logarithm of an extent among objects of a kind", gt=0, le=10
-    )
+    size_spread: float = setting("by which the logarithm of an extent may be off", gt=0, le=10)
     mass_spread: float = setting("the same of the mass", gt=0, le=10)
     known: Share = setting("share of the objects shown that are like one learned from")
-
-    def spread(self) -> list[float]:
-        """Standard deviations of the three extents and of the mass."""
-        return [self.size_spread] * 3 + [self.mass_spread]
 
 
 class HeadSettings(Settings):
