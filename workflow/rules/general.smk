@@ -141,7 +141,7 @@ rule evaluate_general:
         predictors=config["predictors"],
         labels=LABELS,
         tasks=TASKS,
-        scans=scanned(),
+        scans={name: (path, config["objects"]["scale"]) for name, path in scanned().items()},
         meshes=hashes(scanned().values()),
         seed=config["seed"],
         code=script_hash("evaluate_general"),

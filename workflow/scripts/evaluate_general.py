@@ -42,7 +42,7 @@ from grasptypes.tables import write_table
 
 def read_study(
     files: Mapping[str, Any],
-    named: tuple[Sequence[str], Sequence[str], Mapping[str, str]],
+    named: tuple[Sequence[str], Sequence[str], Mapping[str, tuple[str, float]]],
     settings: GeneralSettings,
 ) -> Study:
     """Everything that the protocol needs.
@@ -50,7 +50,7 @@ def read_study(
     Args:
         files: images of kinds, objects and renders, of scans and photographs if there are any;
             properties and samples.
-        named: sources of the samples of objects, in order; tasks; meshes of scans in metres.
+        named: sources of the samples of objects, in order; tasks; meshes of scans in metres, and their scale.
     """
     labels, tasks, meshes = named
     kinds = read_known_kinds(files["kinds"], files["kind_samples"], files["kind_properties"], tasks)

@@ -82,16 +82,16 @@ def read_known_objects(
     )
 
 
-def scan_facts(scans: Mapping[str, str], facts: pd.DataFrame) -> pd.DataFrame:
+def scan_facts(scans: Mapping[str, tuple[str, float]], facts: pd.DataFrame) -> pd.DataFrame:
     """Sizes of scans as measured on their meshes, and masses as of our models.
 
     Args:
-        scans: files of meshes in metres, by the name of the object.
+        scans: files of meshes in metres, and the scale of our models, by the name of the object.
         facts: of our models, see `general_inputs.object_facts`.
     """
     found = facts.loc[list(scans)].copy()
-    for name, path in scans.items():
-        extents_m = trimesh.load_mesh(path).extents
+    for name, (path, scale) in scans.items():
+        extents_m = scale * trimesh.load_mesh(path).extents
         found.loc[name, list(SIZE)] = np.log(np.sort(extents_m)[::-1])
     return found
 
