@@ -50,7 +50,8 @@ def read_study(
     Args:
         files: images of kinds, objects and renders, of scans and photographs if there are any;
             properties and samples.
-        named: sources of the samples of objects, in order; tasks; meshes of scans in metres, and their scale.
+        named: sources of the samples of objects, in order; tasks; meshes of scans in metres, and
+            their scale.
     """
     labels, tasks, meshes = named
     kinds = read_known_kinds(files["kinds"], files["kind_samples"], files["kind_properties"], tasks)
