@@ -137,7 +137,7 @@ rule evaluate_general:
     output:
         answers="data/general/answers.parquet",
     params:
-        settings=config["general"],
+        settings=settings("general", "trials"),
         predictors=config["predictors"],
         labels=LABELS,
         tasks=TASKS,
@@ -163,7 +163,7 @@ rule train_general:
         head="data/general/trained/general.npz",
         card="data/general/trained/general.json",
     params:
-        settings=config["general"],
+        settings=settings("general", "trials"),
         backbone=config["backbone"],
         tasks=TASKS,
         code=script_hash("train_general"),
@@ -268,7 +268,7 @@ rule publish_general:
     output:
         runs="reports/general_runs.json",
     params:
-        settings=config["general"],
+        settings=settings("general", "trials"),
         tracking=settings("tracking"),
         hand=labelled_hand("simulated"),
         seed=config["seed"],

@@ -137,7 +137,8 @@ class GeneralSettings(Settings):
     head: HeadSettings
     protocol: ProtocolSettings
     trials: dict[str, Many[int | float | bool | str]] = setting(
-        "values that keys of `head`, the number of kinds and the backbone take, one at a time"
+        "values that keys of `head`, the number of kinds and the backbone take, one at a time",
+        default={},
     )
 
     @model_validator(mode="after")
