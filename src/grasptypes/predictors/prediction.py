@@ -256,6 +256,18 @@ class Predictor:
         names = map(spelled, self.card.types)
         return picture, dict(zip(names, heat, strict=True))
 
+    def export(self, path: str | Path) -> None:
+        """Write backbone and head together as ONNX: `grasptypes.predictors.onnx_export`.
+
+        Raises:
+            InputError: another model than `general`, or the package onnx is missing.
+        """
+        from grasptypes.predictors.onnx_export import export
+
+        if not isinstance(self.model, GeneralNetwork):
+            raise InputError("--model", self.card.model, f"only {GENERAL} can be exported")
+        export(self.model, path)
+
     def check_task(self, task: str | None) -> str:
         """The checked task; models that do not see the task need none.
 
