@@ -127,19 +127,19 @@ def answered(predictor: Predictor, content: bytes, options: dict[str, str]) -> d
     task = predictor.check_task(options.get("task"))
     (answer,) = predictor.answer([shown], task, size_m=size_m)
     picture, heat = predictor.explain(shown, task, size_m=size_m)
-    most = max(float(np.abs(list(heat.values())).max()), 1e-9)
     names = [one.name for one in answer.neighbours]
     looks = read_looks(names, TRAINED / LOOKS) if names else []
     return {
         **predictor.describe([answer], task),
         "picture": _address(picture),
-        "heat": {name: _address(_heated(picture, layer / most)) for name, layer in heat.items()},
+        "heat": {name: _address(_heated(picture, layer)) for name, layer in heat.items()},
         "looks": {name: _address(small) for name, small in zip(names, looks, strict=True)},
     }
 
 
 def _heated(picture: np.ndarray, layer: np.ndarray) -> np.ndarray:
-    """The image, tinted where `layer` (H, W) in [-1, 1] is far from 0."""
+    """The image, tinted most where `layer` (H, W) is farthest from 0."""
+    layer = layer / max(float(np.abs(layer).max()), 1e-9)
     tint = np.where(layer[..., None] > 0, FOR, AGAINST)
     amount = 0.75 * np.abs(layer)[..., None]
     return np.asarray((picture * (1 - amount) + tint * amount).astype(np.uint8))
