@@ -154,7 +154,7 @@ CASES = [
     shown(
         "a mask of a few pixels",
         ("--mask", "m.png"),
-        "is 5 x 5 pixels",
+        "m.png: 0,0,5,5: is 5 x 5 pixels",
         m_png=png(np.pad(np.full((5, 5), 255, np.uint8), (0, 59))),
     ),
     # depth

@@ -90,7 +90,8 @@ class _Handler(BaseHTTPRequestHandler):
         return self.predictor.params.predict.demo.max_upload_mb
 
     def _from_here(self) -> bool:
-        address = "{}:{}".format(*self.server.server_address[:2])
+        host, port = self.connection.getsockname()[:2]
+        address = f"{host}:{port}"
         origin = self.headers.get("Origin", f"http://{address}")
         return self.headers.get("Host") == address and origin == f"http://{address}"
 

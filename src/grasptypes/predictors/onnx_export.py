@@ -5,10 +5,10 @@ The head is written in torch for this; `test_onnx_export.py` compares it with th
 
 from __future__ import annotations
 
-import io
 import warnings
 from importlib.util import find_spec
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 import numpy as np
 import torch
@@ -30,6 +30,11 @@ class GeneralModule(nn.Module):
     Raises:
         InputError: the head reads ImageNet's classes, which are not exported.
     """
+
+    middle: Tensor
+    directions: Tensor
+    facts: Tensor
+    weights: Tensor
 
     def __init__(self, network: GeneralNetwork) -> None:
         super().__init__()
@@ -108,17 +113,17 @@ def export(network: GeneralNetwork, path: str | Path) -> None:
         torch.full((2, len(FACTS)), torch.nan),
         torch.zeros(2, coordinates),
     )
-    buffer = io.BytesIO()
-    with warnings.catch_warnings():
+    with warnings.catch_warnings(), TemporaryDirectory() as folder:
+        file = Path(folder) / "general.onnx"
         warnings.simplefilter("ignore")  # about what is not folded, and about the exporter's age
         torch.onnx.export(
             GeneralModule(network).eval(),
             example,
-            buffer,
+            str(file),
             input_names=list(INPUTS),
             output_names=list(OUTPUTS),
             dynamic_axes={name: {0: "count"} for name in (*INPUTS, *OUTPUTS)},
             opset_version=OPSET,
             dynamo=False,
         )
-    write_bytes(path, buffer.getvalue())
+        write_bytes(path, file.read_bytes())

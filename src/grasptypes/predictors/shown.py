@@ -193,12 +193,15 @@ def _part(
         return None, hints.box
     if hints.mask is None:
         return None, None
-    given = isinstance(hints.mask, np.ndarray)
-    mask = np.asarray(hints.mask) if given else read_mask(hints.mask, params.predict.photos)  # type: ignore[arg-type]
-    check_mask(mask, shape, "--mask" if given else hints.mask)  # type: ignore[arg-type]
-    box = box_of(mask > 0)
-    check_box(box, shape, params.predict.photos.min_px)
-    return mask > 0, box
+    file: str | Path = "--mask"
+    if isinstance(hints.mask, np.ndarray):
+        mask = hints.mask > 0
+    else:
+        file, mask = hints.mask, read_mask(hints.mask, params.predict.photos)
+    check_mask(mask, shape, file)
+    box = box_of(mask)
+    check_box(box, shape, params.predict.photos.min_px, file)
+    return mask, box
 
 
 def _measured(
@@ -211,16 +214,20 @@ def _measured(
         raise InputError("--depth", "", "needs --intrinsics: a JSON file with fx, fy, cx and cy")
     if box is None:
         raise InputError("--depth", "", "needs --mask or --box, which say where the object is")
-    limits, given = params.predict.depth, isinstance(hints.depth, np.ndarray)
-    file = "--depth" if given else str(hints.depth)
-    depth = hints.depth if given else depths.read_depth(hints.depth, params.predict.photos)  # type: ignore[arg-type]
-    loaded = isinstance(hints.intrinsics, depths.Intrinsics)
-    camera = hints.intrinsics if loaded else depths.read_intrinsics(hints.intrinsics)  # type: ignore[arg-type]
-    where = "--intrinsics" if loaded else str(hints.intrinsics)
-    depths.check_camera(camera, where, depth, shape)  # type: ignore[arg-type]
+    limits, photos = params.predict.depth, params.predict.photos
+    file, camera_file = "--depth", "--intrinsics"
+    if isinstance(hints.depth, np.ndarray):
+        depth = hints.depth
+    else:
+        file, depth = str(hints.depth), depths.read_depth(hints.depth, photos)
+    if isinstance(hints.intrinsics, depths.Intrinsics):
+        camera = hints.intrinsics
+    else:
+        camera_file, camera = str(hints.intrinsics), depths.read_intrinsics(hints.intrinsics)
+    depths.check_camera(camera, camera_file, depth, shape)
     if region is None:
-        region = depths.standing_in(np.asarray(depth), box, limits, file)
-    found = depths.longest_extent(np.asarray(depth), region, camera, limits, file)  # type: ignore[arg-type]
+        region = depths.standing_in(depth, box, limits, file)
+    found = depths.longest_extent(depth, region, camera, limits, file)
     low, high = params.predict.size_m
     if not low <= found <= high:
         message = f"the object measures {found:.4g} m; must be {low:g} to {high:g} m"

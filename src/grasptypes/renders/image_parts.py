@@ -26,8 +26,11 @@ def read_box(text: str) -> Box:
     return left, top, right, bottom
 
 
-def check_box(box: Box, shape: tuple[int, int], least_px: int) -> None:
+def check_box(box: Box, shape: tuple[int, int], least_px: int, file: str | Path = "--box") -> None:
     """Check that a box is a part of an image of some height and width.
+
+    Args:
+        file: the option, or the mask, that the box is from.
 
     Raises:
         InputError: it is not, or is too small.
@@ -37,10 +40,10 @@ def check_box(box: Box, shape: tuple[int, int], least_px: int) -> None:
     height, width = shape
     if not (0 <= left < right <= width and 0 <= top < bottom <= height):
         message = f"is not a part of the image, which has {width} x {height} pixels"
-        raise InputError("--box", words, message)
+        raise InputError(file, words, message)
     if min(right - left, bottom - top) < least_px:
         message = f"is {right - left} x {bottom - top} pixels; each side needs at least {least_px}"
-        raise InputError("--box", words, message)
+        raise InputError(file, words, message)
 
 
 def read_mask(path: str | Path, limits: PhotoLimits) -> np.ndarray:
