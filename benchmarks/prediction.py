@@ -15,6 +15,7 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 import torch
+import trimesh
 from scipy.special import expit
 
 from grasptypes.labels.samples import LABELS, read_samples
@@ -28,8 +29,10 @@ from grasptypes.predictors.known_kinds import learn_kinds
 from grasptypes.predictors.photographs import PHOTOGRAPHS
 from grasptypes.predictors.prediction import Predictor
 from grasptypes.predictors.shown import Shown
+from grasptypes.renders.depth_images import Intrinsics, longest_extent
 from grasptypes.renders.foreground import objects_in
 from grasptypes.renders.photos import Box, read_whole
+from grasptypes.renders.scene import viewpoints
 from grasptypes.seeds import rng
 from grasptypes.settings.params import Params, read_params
 
@@ -165,6 +168,37 @@ def strange_is_found(params: Params) -> Iterator[str]:
         yield f"{folder.name}: {(shown > 1).mean():.3f} of {len(shown)}"
 
 
+def depth_measures(params: Params) -> Iterator[str]:
+    """The longest extent found in simulated depth images of kinds, over the true one."""
+    found = []
+    camera = Intrinsics((525.0, 525.0), (319.5, 239.5))
+    for path in sorted(Path("data/kinds/objects").glob("*/visual.glb"))[:: 301 // SHOWN]:
+        mesh = trimesh.load(path, force="mesh")
+        points = np.asarray(trimesh.sample.sample_surface(mesh, 400_000, seed=0)[0])
+        pose = viewpoints(points, 1, params.renders, rng("depth", path.parent.name))[0]
+        seen = (points - pose[:3, 3]) @ pose[:3, :3]
+        away = seen - seen.mean(axis=0) + [0, 0, -0.6]  # cameras look along -z
+        depth = _depth_image(away * [1, -1, -1], camera)
+        noisy = depth + rng("noise", path.parent.name).normal(0, 0.002, depth.shape)
+        region = np.isfinite(depth)
+        if region.sum() < 50 or float(mesh.extents.max()) > 0.5:
+            continue
+        longest_m = longest_extent(noisy, region, camera, params.predict.depth, path)
+        found.append(longest_m / float(mesh.extents.max()))
+    low, middle, high = np.quantile(found, [0.1, 0.5, 0.9])
+    yield f"median {middle:.2f}, 80% within {low:.2f} to {high:.2f}, of {len(found)}"
+
+
+def _depth_image(points: np.ndarray, camera: Intrinsics) -> np.ndarray:
+    """The nearest point of each pixel (480, 640), metres; NaN where there is none."""
+    pixels = points[:, :2] / points[:, 2:] * camera.focal + camera.centre
+    columns, rows = np.round(pixels).astype(int).T
+    inside = (columns >= 0) & (columns < 640) & (rows >= 0) & (rows < 480)
+    depth = np.full((480, 640), np.inf)
+    np.minimum.at(depth, (rows[inside], columns[inside]), points[inside, 2])
+    return np.where(np.isfinite(depth), depth, np.nan)
+
+
 def confidence_is_right(params: Params) -> Iterator[str]:
     """Expected and actual share of types that are rightly chosen or not, on held-out kinds."""
     told = pd.read_parquet("data/general/answers.parquet")
@@ -184,6 +218,7 @@ PARTS = {
     "objects": objects_are_counted,
     "explanations": explanations_hold,
     "strange": strange_is_found,
+    "depth": depth_measures,
     "confidence": confidence_is_right,
 }
 
