@@ -1,16 +1,19 @@
 """The predictor that comes with the package: it answers at once, and size, mass and task matter."""
 
 import json
+from pathlib import Path
 
+import jsonschema
 import numpy as np
 import pytest
+from learning import ROOT
 from PIL import Image
 from tests.unit.settings import PARAMS
 
 from grasptypes.__main__ import main
 from grasptypes.errors import InputError
 from grasptypes.files import file_sha256
-from grasptypes.predictors.answers import report
+from grasptypes.predictors.answers import PLACE, report
 from grasptypes.predictors.general_predictor import (
     CARD,
     HEAD,
@@ -66,6 +69,37 @@ def test_the_command_needs_no_training(tmp_path, monkeypatch, capsys):
     assert told["model"] == "general"
     assert sum(each["share"] for each in told["answers"][0]["types"]) == pytest.approx(1)
     assert told["answers"][0]["size_m"] == [0.1]
+
+
+def test_the_command_takes_several_images_masks_and_depth(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    mask = np.zeros((64, 64), dtype=bool)
+    mask[10:50, 10:60] = True
+    Image.fromarray(PICTURE).save("a.png")
+    Image.fromarray(PICTURE[::-1]).save("b.png")
+    Image.fromarray(np.uint8(255 * mask)).save("mask.png")
+    Image.fromarray(np.where(mask, 500, 700).astype(np.uint16)).save("d.png")
+    Path("K.json").write_text('{"fx": 300, "fy": 300, "cx": 32, "cy": 32}')
+
+    def told(*words):
+        main(["predict", *words, "--task", "use", "--json"])
+        content = json.loads(capsys.readouterr().out)
+        jsonschema.validate(content, json.loads((ROOT / PLACE).read_text()))
+        return content["answers"]
+
+    apart, (both,) = told("a.png", "b.png"), told("a.png", "b.png", "--same-object")
+    assert [one["name"] for one in apart] == ["a.png", "b.png"]
+    assert both["name"] == "a.png and 1 more, mean of 2 images"
+    chances = [{each["type"]: each["probability"] for each in one["types"]} for one in apart]
+    for each in both["types"]:
+        mean = np.mean([one[each["type"]] for one in chances])
+        assert each["probability"] == pytest.approx(mean, abs=1e-6)
+    measured = ("--mask", "mask.png", "--depth", "d.png", "--intrinsics", "K.json")
+    (answer,) = told("a.png", *measured, "--explain", "why.png", "--picture", "answer.png")
+    assert answer["size_m"] == [pytest.approx(49 * 0.5 / 300, rel=0.01)]
+    for name in ("why.png", "answer.png"):
+        with Image.open(name) as figure:
+            assert figure.width > 800
 
 
 def test_a_written_head_is_the_one_that_is_read(predictor, tmp_path):
