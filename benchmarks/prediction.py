@@ -1,7 +1,7 @@
 """What the parts of `grasptypes predict` are worth: `python -m benchmarks.prediction PART`.
 
-Parts: `time`, `objects`, `explanations`, `strange`, `depth`, `confidence`. They need the files of
-`snakemake reports/table3.csv`; `objects` and `strange` need GRASPTYPES_PHOTOGRAPHS, too.
+Parts: `time`, `objects`, `explanations`, `strange`, `kinds`, `depth`, `confidence`. They need the
+files of `snakemake reports/table3.csv`; `objects` and `strange` need GRASPTYPES_PHOTOGRAPHS, too.
 """
 
 from __future__ import annotations
@@ -16,8 +16,10 @@ import numpy as np
 import pandas as pd
 import torch
 import trimesh
+from benchmarks.strange_images import groups
 from scipy.special import expit
 
+from grasptypes.kinds.names import shape_of
 from grasptypes.labels.samples import LABELS, read_samples
 from grasptypes.predictors.explanation import blurred, explain, small
 from grasptypes.predictors.features import read_pictures
@@ -139,10 +141,7 @@ def _without(picture: np.ndarray, cells: np.ndarray, soft: np.ndarray) -> np.nda
 
 
 def strange_is_found(params: Params) -> Iterator[str]:
-    """Images of held-out kinds and photographs called strange, and other images (folder given).
-
-    Each subfolder of the folder that STRANGE_IMAGES names is a group.
-    """
+    """Images of held-out kinds, scans and photographs that are called strange, and others."""
     kinds = read_pictures_of("data/general/features/kinds.npz")
     families = kind_families(sorted(set(kinds.objects.tolist())))
     alarms = []
@@ -161,11 +160,27 @@ def strange_is_found(params: Params) -> Iterator[str]:
         if path.is_file():
             shown = network.known.strangeness(read_pictures_of(path).features)
             yield f"{name}: {(shown > 1).mean():.3f} of {len(shown)}"
-    for folder in sorted(Path(os.environ.get("STRANGE_IMAGES", "/nonexistent")).glob("*/")):
-        files = sorted(folder.iterdir())
-        pictures = [small(read_whole(file, params.predict.photos), 224) for file in files]
-        shown = network.known.strangeness(network.features(np.stack(pictures)))
-        yield f"{folder.name}: {(shown > 1).mean():.3f} of {len(shown)}"
+    for name, pictures in groups().items():
+        shown = network.known.strangeness(network.features(pictures))
+        yield f"{name}: {(shown > 1).mean():.3f} of {len(shown)}"
+
+
+def kinds_are_found(params: Params) -> Iterator[str]:
+    """How often a kind is among the most similar ones, for views of it that were left out."""
+    kinds = read_pictures_of("data/general/features/kinds.npz")
+    families = kind_families(sorted(set(kinds.objects.tolist())))
+    settings = params.predict.known_kinds.changed(directions=1, folds=2)
+    views = pd.Series(kinds.objects).groupby(kinds.objects).cumcount().to_numpy()
+    first, among = [], []
+    for view in range(views.max() + 1):
+        known = learn_kinds(kinds.rows(views != view), families, settings, "", params.seed)
+        for row in np.flatnonzero(views == view):
+            near = known.nearest(kinds.features[[row]], settings.shown)
+            names = [one.name for one in near]
+            own = shape_of(kinds.objects[row])[0]
+            first.append(names[0] == own)
+            among.append(own in names)
+    yield f"views left out: first {np.mean(first):.2f}, among the three {np.mean(among):.2f}"
 
 
 def depth_measures(params: Params) -> Iterator[str]:
@@ -218,6 +233,7 @@ PARTS = {
     "objects": objects_are_counted,
     "explanations": explanations_hold,
     "strange": strange_is_found,
+    "kinds": kinds_are_found,
     "depth": depth_measures,
     "confidence": confidence_is_right,
 }

@@ -198,6 +198,13 @@ CASES = [
         mask_png=MASK,
         K_json=json.dumps(CAMERA),
     ),
+    file(
+        "depth for an image that is turned",
+        "wide.jpg",
+        turned(),
+        "wide.jpg: is turned by its metadata",
+        more=("--box", "0,0,40,40", "--depth", "d.png"),
+    ),
     # intrinsics
     measured("intrinsics that are no JSON", "K.json: is not a JSON file", K_json="fx: 525"),
     measured(

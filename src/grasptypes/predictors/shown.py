@@ -21,7 +21,7 @@ from grasptypes.renders import depth_images as depths
 from grasptypes.renders.foreground import doubts
 from grasptypes.renders.image_parts import box_of, check_box, check_mask, cut, read_mask, reduced
 from grasptypes.renders.mesh_views import mesh_views, views
-from grasptypes.renders.photos import Box, padded, read_whole
+from grasptypes.renders.photos import Box, is_turned, padded, read_whole
 from grasptypes.settings.params import Params
 
 Photo = str | Path | np.ndarray
@@ -167,6 +167,10 @@ def _photo(what: Photo, hints: Hints, params: Params) -> Shown:
     region, box = _part(whole.shape[:2], hints, params)
     size_m: tuple[float, ...] = ()
     if hints.depth is not None or hints.intrinsics is not None:
+        if not isinstance(what, np.ndarray) and is_turned(what, limits):
+            raise InputError(
+                what, "", "is turned by its metadata, but --depth is not: save it upright"
+            )
         size_m = (_measured(whole.shape[:2], region, box, hints, params),)
     part = reduced(whole if box is None else cut(whole, box), limits.reduce_px)
     return Shown((padded(part),), size_m, () if box else doubts(whole, settings.foreground))

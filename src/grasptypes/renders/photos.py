@@ -191,13 +191,24 @@ def _check(
 
 def _upright(path: str | Path, picture: Image.Image) -> Image.Image:
     """The image, turned as its metadata say; damaged metadata do not matter."""
-    plain, orientation = picture.copy(), None
+    plain, orientation = picture.copy(), _orientation(path, picture)
     for name in _METADATA:
         plain.info.pop(name, None)
-    with contextlib.suppress(InputError), parsing(path, "has damaged metadata"):
-        orientation = picture.getexif().get(ExifTags.Base.Orientation)
     plain.getexif()[ExifTags.Base.Orientation] = orientation
     return ImageOps.exif_transpose(plain)
+
+
+def is_turned(path: str | Path, limits: PhotoLimits) -> bool:
+    """Whether the metadata of an image turn it."""
+    with opened_image(path, limits) as opened:
+        return _orientation(path, opened) not in (None, 1)
+
+
+def _orientation(path: str | Path, picture: Image.Image) -> int | None:
+    found: int | None = None
+    with contextlib.suppress(InputError), parsing(path, "has damaged metadata"):
+        found = picture.getexif().get(ExifTags.Base.Orientation)
+    return found
 
 
 def _unknown(path: str | Path) -> str:
