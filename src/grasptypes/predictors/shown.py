@@ -79,11 +79,7 @@ def drawing() -> Iterator[None]:
 
 
 def is_photo(what: object) -> bool:
-    """Whether something is taken for an image: arrays of images, and files that are nothing else.
-
-    Raises:
-        InputError: a PLY file is damaged.
-    """
+    """Whether something is taken for images: arrays, and files that are no meshes or points."""
     if isinstance(what, str | Path):
         return Path(what).suffix.lower() not in {*FORMATS, *point_clouds.FORMATS}
     return isinstance(what, np.ndarray)
