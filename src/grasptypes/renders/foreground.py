@@ -1,6 +1,7 @@
-"""How many objects an image shows, by a simple rule: connected regions unlike the image's border.
+"""How many objects an image shows, by a simple rule: what the largest even region encloses.
 
-It knows nothing about objects. Where the border is not of about one colour it says nothing.
+It knows nothing about objects: patterns, hard shadows and objects that touch mislead it. Where
+nothing is even, or objects reach the image's border, it says nothing.
 """
 
 from __future__ import annotations
@@ -20,20 +21,21 @@ def objects_in(picture: np.ndarray, settings: ForegroundSettings) -> list[Box] |
     image = Image.fromarray(picture)
     image.thumbnail((settings.size_px, settings.size_px))
     small = np.asarray(image).astype(float)
-    border = np.concatenate([small[0], small[-1], small[:, 0], small[:, -1]])
-    colour = np.median(border, axis=0)
-    spread = np.median(np.abs(border - colour).max(axis=1))
-    differs = np.abs(small - colour).max(axis=2)
-    limit = max(settings.contrast, settings.spreads * spread)
-    unlike = ndimage.binary_closing(np.pad(differs > limit, 2), iterations=2)[2:-2, 2:-2]
-    if unlike.mean() > settings.most or limit > 255 / 2:
+    slopes = [ndimage.gaussian_gradient_magnitude(small[..., k], 1.0) for k in range(3)]
+    even, _ = ndimage.label(np.max(slopes, axis=0) < settings.edge)
+    sizes = np.bincount(even.ravel(), minlength=2)
+    ground = even == 1 + np.argmax(sizes[1:])
+    if ground.mean() < settings.ground:
         return None
-    labels, _ = ndimage.label(unlike, np.ones((3, 3)))
+    enclosed = ndimage.binary_opening(ndimage.binary_fill_holes(ground) & ~ground)
+    labels, _ = ndimage.label(enclosed, np.ones((3, 3)))
     sizes = np.bincount(labels.ravel())[1:]
     least = max(settings.least * labels.size, settings.relative * max(sizes, default=0))
-    scale = picture.shape[1] / small.shape[1]
-    found = ndimage.find_objects(labels)
-    return [_box(found[k], scale) for k in np.argsort(-sizes, kind="stable") if sizes[k] >= least]
+    places, scale = ndimage.find_objects(labels), picture.shape[1] / small.shape[1]
+    order = [k for k in np.argsort(-sizes, kind="stable") if sizes[k] >= least]
+    if not order and ground.mean() < settings.empty:
+        return None
+    return [_box(places[k], scale) for k in order]
 
 
 def doubts(picture: np.ndarray, settings: ForegroundSettings) -> tuple[str, ...]:
@@ -43,10 +45,13 @@ def doubts(picture: np.ndarray, settings: ForegroundSettings) -> tuple[str, ...]
         return ()
     if not boxes:
         return (f"the image seems to show no object, only a background: {ASK}",)
-    if len(boxes) == 1:
-        return ()
     named = " or ".join(",".join(map(str, box)) for box in boxes[:3])
-    return (f"the image seems to show {len(boxes)} objects: {ASK}, such as --box {named}",)
+    if len(boxes) > 1:
+        return (f"the image seems to show {len(boxes)} objects: {ASK}, such as --box {named}",)
+    left, top, right, bottom = boxes[0]
+    if max(right - left, bottom - top) < settings.far * max(picture.shape[:2]):
+        return (f"the object seems to be a small part of the image: {ASK}, such as --box {named}",)
+    return ()
 
 
 def _box(place: tuple[slice, slice], scale: float) -> Box:

@@ -38,11 +38,12 @@ class ForegroundSettings(Settings):
     """How objects are counted in an image of which no part is named."""
 
     size_px: int = setting("longer sides are scaled down to this", ge=16, le=1024)
-    contrast: float = setting("difference from the border's colour that counts, levels", gt=0)
-    spreads: float = setting("the same, in median deviations of the border", gt=0)
+    edge: float = setting("change of colour that ends the ground, levels per pixel", gt=0)
+    ground: Share = setting("smallest share of the image that is ground, else nothing is said")
+    empty: Share = setting("share of ground above which an image without objects is empty")
     least: Share = setting("smallest share of the image that an object covers")
     relative: Share = setting("smallest size of an object, relative to the largest one")
-    most: Share = setting("share of the image above which the border is no background")
+    far: Share = setting("share of the image's sides below which a single object is too small")
 
 
 class ExplanationSettings(Settings):

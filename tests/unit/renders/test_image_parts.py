@@ -51,8 +51,17 @@ def test_objects_are_counted_on_a_plain_ground():
     assert len(objects_in(table(second, first), SETTINGS)) == 2
     assert doubts(table(first), SETTINGS) == ()
     assert "2 objects" in doubts(table(first, second), SETTINGS)[0]
-    assert "--mask, such as --box 40," in doubts(table(first, second), SETTINGS)[0]
+    assert "--mask, such as --box 36," in doubts(table(first, second), SETTINGS)[0]
     assert "no object" in doubts(table(), SETTINGS)[0]
+
+
+def test_a_small_object_in_a_room_is_found():
+    room = table((150, 120, 190, 150))
+    room[:40] = 80
+    room[:, 300:] = 60
+    (found,) = objects_in(room, SETTINGS)
+    assert np.abs(np.subtract(found, (150, 120, 190, 150))).max() <= 4
+    assert "small part of the image" in doubts(room, SETTINGS)[0]
 
 
 def test_nothing_is_said_where_the_border_is_no_background():
