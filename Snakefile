@@ -57,6 +57,7 @@ include: "workflow/rules/kinds_common.smk"
 include: "workflow/rules/kinds.smk"
 include: "workflow/rules/segmentation.smk"
 include: "workflow/rules/general.smk"
+include: "workflow/rules/known_kinds.smk"
 
 
 wildcard_constraints:

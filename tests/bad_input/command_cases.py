@@ -19,7 +19,7 @@ from grasptypes.hands.reading import load_hand
 from grasptypes.versions.checkout import copy_checkout
 
 FOLDER = {"params.yaml": (ROOT / "params.yaml").read_bytes()}
-ASK = ("predict", "--image", "cup.png", "--task", "use", "--model", "b")
+ASK = ("predict", "cup.png", "--task", "use", "--model", "b")
 MODEL = "models/simulated/task_vector"
 
 
@@ -68,10 +68,10 @@ CASES = [
     asked("an unknown command", ("guess",), "invalid choice: 'guess'"),
     asked("an unknown option", (*ASK, "--colour"), "--colour"),
     asked("an abbreviated option", (*ASK, "--pic", "answer.png"), "--pic"),
-    asked("neither image nor mesh", ("predict", "--task", "use"), "--image --object is required"),
+    asked("neither image nor mesh", ("predict", "--task", "use"), "are required: shown"),
     asked("an unknown unit", (*ASK, "--unit", "ell"), "--unit", "'ell'"),
     asked("a unit for an image", (*ASK, "--unit", "mm"), "--unit: mm: is for meshes"),
-    asked("a missing image", ("predict", "--image", "no.png"), "no.png: no such file"),
+    asked("a missing image", ("predict", "no.png"), "no.png: no such file"),
     asked("another folder", (*ASK, "--folder", "no"), "no/params.yaml", "--folder"),
     asked("a figure that is not a PNG", (*ASK, "--picture", "cup.jpg"), "cup.jpg", ".png"),
     asked(
@@ -81,14 +81,14 @@ CASES = [
     ),
     asked(
         "a figure among the images",
-        ("predict", "--image", ".", "--task", "use", "--picture", "answer.png"),
+        ("predict", ".", "--task", "use", "--picture", "answer.png"),
         "answer.png: is in the folder of input images",
     ),
     Case(
         "command",
         "a folder of bad images",
         FOLDER | {"cups/a.png": "no picture", "cups/b.png": ""},
-        command("predict", "--image", "cups", "--task", "use"),
+        command("predict", "cups", "--task", "use"),
         ("cups: contains no usable image", "a.png: not an image"),
     ),
     asked(
@@ -96,16 +96,7 @@ CASES = [
         (*ASK, "--picture", "/proc/cup.png"),
         "/proc/cup.png: cannot be created",
     ),
-    asked("a size of three kilometres", (*ASK, "--size-m", "3000"), "--size-m: 3000", "0.001 to 2"),
-    asked("a size of nothing", (*ASK, "--size-m", "0"), "--size-m: 0: must be"),
-    asked("two lengths", (*ASK, "--size-m", "0.1", "0.2"), "--size-m: 2", "or all three"),
-    asked("a size in words", (*ASK, "--size-m", "big"), "--size-m", "'big'"),
-    asked("a negative mass", (*ASK, "--mass-kg", "-1"), "--mass-kg: -1: must be 0.001 to"),
-    asked(
-        "a size for a mesh",
-        ("predict", "--object", "cup.stl", "--task", "use", "--size-m", "0.1"),
-        "--size-m: is for images",
-    ),
+    asked("a negative mass", (*ASK, "--mass-kg", "-1"), "--mass-kg: -1 kg: must be 0.001"),
     asked("an unknown model", (*ASK, "--model", "x"), "--model: x", "task_vector"),
     asked("unknown labels", (*ASK, "--labels", "../.."), "--labels: ../..", "simulated, published"),
     asked("an untrained model", ASK, f"{MODEL}/predictor.safetensors", "snakemake -j2"),

@@ -29,12 +29,12 @@ def encoded(picture: Image.Image, kind: str = "png", **options: Any) -> bytes:
 
 
 def picture(what: str, content: Content, *names: str, name: str = "cup.png") -> Case:
-    """An image that --image names."""
+    """An image that is named."""
     files = {
         name: content,
         "params.yaml": (ROOT / "params.yaml").read_bytes(),
     }
-    call = command("predict", "--image", name, "--task", "use")
+    call = command("predict", name, "--task", "use")
     return Case("image", what, files, call, (name, *names))
 
 

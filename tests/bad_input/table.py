@@ -15,6 +15,7 @@ import params_cases
 import picture_cases
 import plan_cases
 import role_cases
+import shown_cases
 import table_cases
 import view_cases
 import weights_cases
@@ -34,6 +35,7 @@ MODULES = (
     kind_cases,
     plan_cases,
     role_cases,
+    shown_cases,
 )
 CASES: list[Case] = [case for module in MODULES for case in module.CASES]
 TABLE = ROOT / "docs/bad_input.md"

@@ -9,6 +9,7 @@ from packaging.requirements import Requirement
 from packaging.version import Version
 
 ROOT = Path(__file__).parents[2]
+UNLOCKED = ("docs", "onnx", "points")
 
 
 def locked() -> dict[str, Version]:
@@ -29,9 +30,9 @@ def stated(*extras: str) -> list[Requirement]:
 
 
 def extras() -> list[str]:
-    """All but the tools of the site, which `make docs` installs."""
+    """All but the tools of the site, which `make docs` installs, and those of two file formats."""
     project = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
-    return [name for name in project["optional-dependencies"] if name != "docs"]
+    return [name for name in project["optional-dependencies"] if name not in UNLOCKED]
 
 
 def test_the_lock_pins_every_stated_package_within_its_range() -> None:

@@ -64,13 +64,14 @@ grasptypes.label, grasptypes.load_object, grasptypes.GRASP_TYPES, grasptypes.Gra
     ("words", "extra"),
     [
         (("plan", "--object", "x.stl", "--task", "use", "--type", "Precision"), "plan"),
-        (("predict", "--object", "x.stl", "--task", "use"), "predict"),
+        (("predict", "x.png", "--task", "use"), "predict"),
         (("hand", "check", "barrett", "--picture", "x.png"), "plan"),
     ],
 )
 def test_a_command_names_the_extra_that_it_lacks(
     words: tuple[str, ...], extra: str, tmp_path: Path
 ) -> None:
+    Image.new("RGB", (64, 64), "red").save(tmp_path / "x.png")
     done = without(OPTIONAL, command(*words), tmp_path)
     assert done.returncode == 1
     assert done.stderr.count("\n") == 1
@@ -80,7 +81,7 @@ def test_a_command_names_the_extra_that_it_lacks(
 def test_prediction_needs_no_other_extra(tmp_path: Path) -> None:
     Image.new("RGB", (64, 64), "red").save(tmp_path / "photo.png")
     others = sorted(set(OPTIONAL) - set(EXTRAS["predict"]))
-    words = ("predict", "--image", "photo.png", "--task", "use")
+    words = ("predict", "photo.png", "--task", "use")
     done = without(others, command(*words), tmp_path)
     assert "general" in done.stdout, done.stderr
 

@@ -145,7 +145,7 @@ def test_predict_answers_alike_whatever_is_set_and_for_a_user_without_an_entry(t
     weights = small_checkout(tmp_path, {})
     image = np.random.default_rng(0).integers(0, 256, (64, 64, 3), dtype=np.uint8)
     Image.fromarray(image).save(tmp_path / "cup.png")
-    shown = ["--image", str(tmp_path / "cup.png"), "--task", "use", "--folder", str(tmp_path)]
+    shown = [str(tmp_path / "cup.png"), "--task", "use", "--folder", str(tmp_path)]
     code = """
 import sys
 from grasptypes.__main__ import main

@@ -20,7 +20,7 @@ from grasptypes.planning.plan_comparison import (
     unseen_types,
 )
 from grasptypes.planning.sessions import PlanningContext
-from grasptypes.predictors.prediction import spelled
+from grasptypes.predictors.answers import spelled
 from grasptypes.predictors.problem import read_problem
 from grasptypes.settings.params import Params
 from grasptypes.tables import write_table

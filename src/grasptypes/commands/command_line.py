@@ -12,7 +12,7 @@ from concurrent.futures.process import BrokenProcessPool
 from importlib.metadata import version
 from typing import NoReturn
 
-from grasptypes.commands import hand, inspect, label, plan, predict, view
+from grasptypes.commands import demo, hand, inspect, label, plan, predict, view
 from grasptypes.errors import InputError, InputErrors
 from grasptypes.extras import MissingExtraError, missing_extra
 
@@ -22,6 +22,7 @@ COMMANDS = {
     "inspect": inspect,
     "label": label,
     "view": view,
+    "demo": demo,
     "hand": hand,
 }
 

@@ -29,6 +29,18 @@ def add_folder(parser: argparse.ArgumentParser) -> None:
     )
 
 
+def add_page(parser: argparse.ArgumentParser) -> None:
+    """Add the options of a page in the browser."""
+    parser.add_argument("--port", type=_port, default=0, help="port of the page (default: any)")
+    parser.add_argument("--no-browser", action="store_true", help="print the address only")
+
+
+def _port(text: str) -> int:
+    if not text.isdecimal() or int(text) > 65535:
+        raise argparse.ArgumentTypeError(f"{text} is not a port (0 to 65535)")
+    return int(text)
+
+
 def read_task(text: str, known: Collection[str]) -> str:
     """The known task that --task names, by name or in words; says on stderr how words are taken.
 

@@ -10,7 +10,7 @@ import sys
 import webbrowser
 from pathlib import Path
 
-from grasptypes.commands.settings import add_folder, check_target, printable
+from grasptypes.commands.settings import add_folder, add_page, check_target, printable
 
 SUMMARY = "Show grasps in the browser: of an object, a table or a plan."
 
@@ -27,8 +27,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="name of a hand, or folder with one (default: the plan's, or in params.yaml)",
     )
     parser.add_argument("--output", type=Path, help="HTML file to write instead of serving it")
-    parser.add_argument("--port", type=_port, default=0, help="port of the page (default: any)")
-    parser.add_argument("--no-browser", action="store_true", help="print the address only")
+    add_page(parser)
     add_folder(parser)
 
 
@@ -60,9 +59,3 @@ def run(args: argparse.Namespace) -> str:
             webbrowser.open(address)
         server.serve_forever()
     return ""
-
-
-def _port(text: str) -> int:
-    if not text.isdecimal() or int(text) > 65535:
-        raise argparse.ArgumentTypeError(f"{text} is not a port (0 to 65535)")
-    return int(text)

@@ -22,8 +22,8 @@ from grasptypes.labels.grasp_type import GRASP_TYPES
 from grasptypes.labels.samples import TYPES
 from grasptypes.planning.plan_contacts import grips_of, plan_contacts
 from grasptypes.planning.sessions import PlanningContext, plan_sessions
+from grasptypes.predictors.answers import Answer, spelled
 from grasptypes.predictors.members import members_by_object
-from grasptypes.predictors.prediction import Answer
 from grasptypes.predictors.problem import LearningProblem
 from grasptypes.predictors.protocol import try_splits
 
@@ -86,7 +86,8 @@ def unseen_types(
 def _chosen(logits: np.ndarray) -> list[str]:
     """The types that a predictor chooses, from logits (views, types)."""
     shares, occurs = softmax(logits, axis=-1).mean(axis=0), expit(logits).mean(axis=0)
-    return Answer("", TYPES, shares, occurs).grasp_types
+    chosen = Answer.of("", TYPES, shares, occurs).chosen
+    return [name for name in map(spelled, TYPES) if name in chosen]
 
 
 def compare(

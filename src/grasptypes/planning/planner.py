@@ -213,7 +213,8 @@ class Planner:
         name = f"{geometry.name}, mean of {self.params.predict.views} views"
         answer = self._predictor.predict(geometry, task, name=name)
         described = self._predictor.describe([answer], task)
-        return GraspTypeRequest(tuple(answer.grasp_types), described)
+        types = tuple(name for name in GRASP_TYPES if name in answer.chosen)
+        return GraspTypeRequest(types, described)
 
 
 def check_guidance(contact_map: MeasuredMap | None, roles: RoleTable | None) -> None:

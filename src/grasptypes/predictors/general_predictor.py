@@ -7,15 +7,17 @@ from pathlib import Path
 
 import numpy as np
 import torch
+from scipy.special import logit
 
 from grasptypes.errors import InputError
 from grasptypes.files import read_npz, write_npz
 from grasptypes.predictors.backbone import Backbone, load_backbone
-from grasptypes.predictors.class_scores import class_scores
+from grasptypes.predictors.class_scores import CLASSES, class_scores
 from grasptypes.predictors.features import for_inference, forward
 from grasptypes.predictors.general import GeneralHead
 from grasptypes.predictors.general_backbone import weights_of
 from grasptypes.predictors.general_inputs import FACTS, Inputs, Projection, TaskCode
+from grasptypes.predictors.known_kinds import KNOWN, KnownKinds, read_kinds
 from grasptypes.predictors.memory import Memory
 from grasptypes.predictors.weights import Weights
 from grasptypes.records import Record
@@ -27,6 +29,8 @@ GENERAL = "general"
 # The head that comes with the package; the rule train_general makes both files again.
 TRAINED = Path(__file__).with_name("trained")
 HEAD, CARD = "general.npz", "general.json"
+# Probabilities are this far from 0 and 1 at least, for logits.
+LEAST = 1e-6
 REMEMBERED = ("places", "facts", "tasks", "occurs", "shares")
 
 
@@ -63,7 +67,11 @@ class GeneralCard(Record):
 
 
 class GeneralNetwork:
-    """A backbone, a head and their card: images, task, size and mass to grasp types."""
+    """A backbone, a head and their card: images, task, size and mass to grasp types.
+
+    Args:
+        known: the kinds that it has learned from, to compare images with.
+    """
 
     def __init__(
         self,
@@ -72,12 +80,14 @@ class GeneralNetwork:
         head: GeneralHead,
         code: TaskCode,
         card: GeneralCard,
+        known: KnownKinds | None = None,
     ) -> None:
         self.backbone = for_inference(backbone)
         self.weights = weights
         self.head = head
         self.code = code
         self.card = card
+        self.known = known
 
     def answers(
         self, pictures: np.ndarray, task: str, facts: Sequence[float] = ()
@@ -88,18 +98,29 @@ class GeneralNetwork:
             pictures: (N, H, W, 3) uint8.
             facts: of `general_inputs.FACTS`, NaN where unknown; default: all unknown.
         """
-        tensor = torch.from_numpy(np.ascontiguousarray(pictures))
-        features = forward(self.backbone, tensor).numpy()
+        return self.read(self.features(pictures), facts, task)
+
+    def read(
+        self, features: np.ndarray, facts: Sequence[float], task: str
+    ) -> tuple[np.ndarray, np.ndarray]:
+        """The same for features (N, F) of images."""
         count = len(features)
         known = np.array(facts or [np.nan] * len(FACTS), dtype=float)
-        inputs = Inputs(
-            features,
-            class_scores(self.weights, features),
-            np.tile(known, (count, 1)),
-            np.tile(self.code(read_tasks()[task]), (count, 1)),
-        )
+        unused = self.head.classes.directions.shape[1] == 0
+        classes = np.zeros((count, CLASSES)) if unused else class_scores(self.weights, features)
+        tasks = np.tile(self.code(read_tasks()[task]), (count, 1))
+        inputs = Inputs(features, classes, np.tile(known, (count, 1)), tasks)
         occurs, shares = self.head.answers(inputs)
         return shares, occurs
+
+    def logits(self, pictures: np.ndarray, task: str, facts: Sequence[float] = ()) -> np.ndarray:
+        """Logits (N, types) of whether each type occurs, see :meth:`answers`."""
+        _, occurs = self.answers(pictures, task, facts)
+        return np.asarray(logit(np.clip(occurs, LEAST, 1 - LEAST)))
+
+    def features(self, pictures: np.ndarray) -> np.ndarray:
+        """Features (N, F) of images (N, H, W, 3) uint8."""
+        return forward(self.backbone, torch.from_numpy(np.ascontiguousarray(pictures))).numpy()
 
 
 def write_general(
@@ -167,4 +188,8 @@ def load_general(
         code = TaskCode(arrays["task_middle"], arrays["task_directions"])
     except KeyError as error:
         raise InputError(path, str(error.args[0]), "this array is missing") from error
-    return GeneralNetwork(load_backbone(weights, card.input_px), weights, head, code, card)
+    known = read_kinds(Path(folder, KNOWN)) if Path(folder, KNOWN).is_file() else None
+    if known and not known.weights.endswith(f"({weights.sha256[:8]})"):
+        message = f"are features of {known.weights}, not of {weights.name}"
+        raise InputError(Path(folder, KNOWN), "weights", message)
+    return GeneralNetwork(load_backbone(weights, card.input_px), weights, head, code, card, known)

@@ -14,6 +14,9 @@ from scipy.special import log_softmax, softmax
 from grasptypes.predictors.general_inputs import Inputs, Projection, Targets, spread_of
 from grasptypes.settings.general import MemorySettings
 
+# Coordinates of tasks are about 1, in single precision.
+SAME_TASK = 1e-4
+
 
 @dataclass(frozen=True)
 class Memory:
@@ -97,7 +100,7 @@ class Memory:
         chances = self.chances(inputs.features, inputs.facts)
         found = occurs.copy(), shares.copy()
         for number, task in enumerate(self.tasks):
-            rows = np.isclose(inputs.tasks, task, atol=1e-4).all(axis=1)
+            rows = (np.abs(inputs.tasks - task) < SAME_TASK).all(axis=1)
             known = np.isfinite(self.occurs[number, :, 0])
             weights = chances[rows][:, [*known, True]]
             weights /= weights.sum(axis=1, keepdims=True)

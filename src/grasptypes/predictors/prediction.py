@@ -1,9 +1,9 @@
-"""Predictions of a trained model for new images."""
+"""Predictions of a trained model for what a user shows."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import replace
 from importlib import import_module
 from pathlib import Path
 from typing import Any
@@ -12,60 +12,29 @@ import numpy as np
 
 from grasptypes.errors import InputError
 from grasptypes.objects.object_geometry import ObjectGeometry
-from grasptypes.predictors.general_predictor import (
-    GENERAL,
-    GeneralCard,
-    GeneralNetwork,
-    load_general,
-)
+from grasptypes.predictors.answers import Answer, Card, described, spelled
+from grasptypes.predictors.batches import in_batches
+from grasptypes.predictors.explanation import explain, small
+from grasptypes.predictors.general_predictor import GENERAL, GeneralNetwork, load_general
 from grasptypes.predictors.known_size import facts_of_size
-from grasptypes.predictors.metrics import SIGMOID_THRESHOLD
 from grasptypes.predictors.predictor import VARIANTS
 from grasptypes.predictors.predictor_files import (
     ModelCard,
     PredictorNetwork,
     load_predictor,
 )
+from grasptypes.predictors.shown import Hints, Photo, Shown, look
 from grasptypes.predictors.weights import find_weights
-from grasptypes.renders.mesh_views import mesh_views, views
-from grasptypes.renders.photos import read_photo
-from grasptypes.settings.objects import OwnObject
+from grasptypes.renders.depth_images import Intrinsics
+from grasptypes.renders.photos import Box
 from grasptypes.settings.params import PARAMS, Params, checkout_params
 
 # Label sources of trained models; their folders below models/.
 LABELS = ("simulated", "published")
 MODEL_OF_ROW = {variant.row: name for name, variant in VARIANTS.items()}
 Network = PredictorNetwork | GeneralNetwork
-Card = ModelCard | GeneralCard
-
-
-@dataclass(frozen=True)
-class Answer:
-    """Prediction for one image, or for several views of one object together.
-
-    Attributes:
-        name: name of the image or object.
-        types: (K) grasp types, spelled as in model cards.
-        probability: (K,) share of each type; sums to one.
-        sigmoid: (K,) probability that each type occurs, on its own.
-    """
-
-    name: str
-    types: Sequence[str]
-    probability: np.ndarray
-    sigmoid: np.ndarray
-
-    @property
-    def chosen(self) -> np.ndarray:
-        """(K,) whether a type is chosen (paper, section IV-B)."""
-        return self.sigmoid > SIGMOID_THRESHOLD
-
-    @property
-    def grasp_types(self) -> list[str]:
-        """The chosen types, spelled as in `GRASP_TYPES`; the likeliest if none is chosen."""
-        likeliest = self.probability == self.probability.max()
-        found = self.chosen if self.chosen.any() else likeliest
-        return [spelled(kind) for kind, yes in zip(self.types, found, strict=True) if yes]
+__all__ = ["LABELS", "Answer", "Predictor"]
+STRANGE = "nothing that was learned looks like this, so the answer is a guess"
 
 
 def predictor_paths(root: str | Path, labels: str, model: str) -> tuple[Path, Path]:
@@ -111,6 +80,8 @@ def load_model(root: str | Path, labels: str, model: str) -> Network:
 class Predictor:
     """A trained model, which predicts the grasp types for an object and a task.
 
+    It may be used by several threads at a time.
+
     Args:
         params: parameters of the checkout: how meshes are rendered, which photos are accepted.
     """
@@ -152,51 +123,150 @@ class Predictor:
 
     def predict(
         self,
-        shown: ObjectGeometry | np.ndarray | str | Path,
+        shown: ObjectGeometry | Photo | Sequence[Photo],
         task: str | None = None,
         *,
         name: str = "",
-        background: tuple[int, int, int] | None = None,
-        size_m: Sequence[float] = (),
+        size_m: float | Sequence[float] = (),
         mass_kg: float | None = None,
+        unit: str | None = None,
+        background: tuple[int, int, int] | None = None,
+        box: Box | None = None,
+        mask: str | Path | np.ndarray | None = None,
+        depth: str | Path | np.ndarray | None = None,
+        intrinsics: str | Path | Intrinsics | None = None,
     ) -> Answer:
         """Predict grasp types.
 
         Args:
-            shown: an object, which is rendered from several sides; a photo file; or images
-                (H, W, 3) or (N, H, W, 3) uint8 of one object, whose predictions are averaged.
+            shown: an object, or the file of a mesh (STL, OBJ, PLY, GLB) or of points (PLY, NPY,
+                PCD), which are rendered from several sides; an image file; an image (H, W, 3)
+                uint8; or several images of one object, whose predictions are averaged.
             task: the task; not needed for models that do not see it.
             name: name of the answer.
-            background: RGB colour behind a photo's transparent pixels.
-            size_m: longest extent of the object, or all three, if known; those of an object with
-                geometry are known. Only the model `general` uses size and mass.
+            size_m: longest extent of the object, or all three, if known; those of geometry are
+                known. Only the model `general` uses size and mass.
             mass_kg: mass of the object, if known.
+            unit: of a mesh or of points; default: m.
+            background: RGB colour behind an image's transparent pixels.
+            box: left, top, right and bottom of the part of an image that shows the object, pixels.
+            mask: image file or array (H, W) that is white or true where the object is.
+            depth: depth image of the same shape, a file or an array (H, W) in metres: the longest
+                extent is measured in it. Needs `intrinsics`, and `mask` or `box`.
+            intrinsics: of the camera, a JSON file or an object.
 
         Raises:
-            InputError: an unknown task, an unusable photo, or a size or mass out of range.
+            InputError: an unknown task, an unusable file, or a size or mass out of range.
         """
-        if isinstance(shown, ObjectGeometry) and not size_m:
-            size_m = np.ptp(shown.properties.bounds_m, axis=0).tolist()
-        facts = facts_of_size(size_m, mass_kg, self.params.predict)
-        pictures, task = self.images(shown, background), self.check_task(task)
-        shares, occurs = self.model.answers(pictures, task, facts)
-        return Answer(name, self.card.types, shares.mean(axis=0), occurs.mean(axis=0))
+        self.check_task(task)
+        hints = Hints(unit, background, box, mask, depth, intrinsics)
+        seen = look(shown, hints, self.params)
+        return self.answer([seen], task, names=[name], size_m=size_m, mass_kg=mass_kg)[0]
 
-    def images(
+    def answer(
         self,
-        shown: ObjectGeometry | np.ndarray | str | Path,
-        background: tuple[int, int, int] | None = None,
-    ) -> np.ndarray:
-        """Images that the model sees: (N, H, W, 3) uint8; see `predict`."""
-        if isinstance(shown, ObjectGeometry):
-            return views(shown.visual, self.params.renders, self.params.predict.views)
-        if isinstance(shown, str | Path):
-            return read_photo(shown, self.params.predict.photos, background)[None]
-        return shown[None] if shown.ndim == 3 else shown
+        shown: Sequence[Shown],
+        task: str | None = None,
+        *,
+        names: Sequence[str] = (),
+        size_m: float | Sequence[float] = (),
+        mass_kg: float | None = None,
+    ) -> list[Answer]:
+        """Predictions for several objects, in batches; see :meth:`predict`.
 
-    def mesh_images(self, own: OwnObject) -> tuple[np.ndarray, list[float]]:
-        """Like `images`, for a user's mesh that is not prepared for planning, and its extents."""
-        return mesh_views(own, self.params)
+        Args:
+            shown: of `grasptypes.predictors.shown.look`, one per object.
+            names: of the answers.
+            size_m, mass_kg: of every object whose size was not seen.
+
+        Raises:
+            InputError: an unknown task, or a size or mass out of range.
+        """
+        task = self.check_task(task)
+        given = tuple(size_m) if isinstance(size_m, Sequence) else (size_m,)
+        sizes = [one.size_m or given for one in shown]
+        facts = [facts_of_size(size, mass_kg, self.params.predict) for size in sizes]
+        pictures = [picture for one in shown for picture in one.pictures]
+        ends = np.cumsum([len(one.pictures) for one in shown])[:-1]
+        count, network = self.params.predict.batch, self.model
+        if isinstance(network, GeneralNetwork):
+            (rows,) = in_batches(pictures, count, lambda batch: [network.features(batch)])
+            features = np.split(rows, ends)
+            told = [network.read(*row, task) for row in zip(features, facts, strict=True)]
+        else:
+            both = in_batches(pictures, count, lambda batch: network.answers(batch, task))
+            told = list(zip(*(np.split(rows, ends) for rows in both), strict=True))
+        answers = []
+        for number, (one, (shares, occurs)) in enumerate(zip(shown, told, strict=True)):
+            name = names[number] if names else ""
+            answer = Answer.of(name, self.card.types, shares.mean(axis=0), occurs.mean(axis=0))
+            answer = replace(answer, size_m=sizes[number], warnings=one.warnings)
+            if isinstance(network, GeneralNetwork):
+                answer = self._compared(answer, features[number])
+            answers.append(answer)
+        return answers
+
+    def _compared(self, answer: Answer, features: np.ndarray) -> Answer:
+        """An answer with what is known that looks alike."""
+        assert isinstance(self.model, GeneralNetwork)
+        known = self.model.known
+        if known is None:
+            return answer
+        near = known.nearest(features, self.params.predict.known_kinds.shown)
+        strangeness = float(known.strangeness(features).mean())
+        warnings = answer.warnings
+        if strangeness > 1:
+            warnings += (f"{STRANGE} (strangeness {strangeness:.2f})",)
+        return replace(answer, neighbours=near, strangeness=strangeness, warnings=warnings)
+
+    def explain(
+        self,
+        shown: Shown,
+        task: str | None = None,
+        *,
+        size_m: float | Sequence[float] = (),
+        mass_kg: float | None = None,
+    ) -> tuple[np.ndarray, dict[str, np.ndarray]]:
+        """What in the first image spoke for each type.
+
+        Returns:
+            the image (S, S, 3) uint8 as the backbone sees it, and by the name of each type how far
+            its logit falls (S, S) when the surroundings of a pixel are hidden.
+
+        Raises:
+            InputError: an unknown task, or a size or mass out of range.
+        """
+        task = self.check_task(task)
+        given = tuple(size_m) if isinstance(size_m, Sequence) else (size_m,)
+        facts = facts_of_size(shown.size_m or given, mass_kg, self.params.predict)
+        network, count = self.model, self.params.predict.batch
+
+        def see(batch: np.ndarray) -> list[np.ndarray]:
+            """Logits (N, types) in a list."""
+            if isinstance(network, GeneralNetwork):
+                return [network.logits(batch, task, facts)]
+            return [network.logits(batch, task)]
+
+        def ask(pictures: Sequence[np.ndarray]) -> np.ndarray:
+            """Logits (N, types) of any number of images."""
+            return in_batches(pictures, count, see)[0]
+
+        picture = small(shown.pictures[0], self.card.input_px)
+        heat = explain(picture, ask, self.params.predict.explanation)
+        names = map(spelled, self.card.types)
+        return picture, dict(zip(names, heat, strict=True))
+
+    def export(self, path: str | Path) -> None:
+        """Write backbone and head together as ONNX: `grasptypes.predictors.onnx_export`.
+
+        Raises:
+            InputError: another model than `general`, or the package onnx is missing.
+        """
+        from grasptypes.predictors.onnx_export import export
+
+        if not isinstance(self.model, GeneralNetwork):
+            raise InputError("--model", self.card.model, f"only {GENERAL} can be exported")
+        export(self.model, path)
 
     def check_task(self, task: str | None) -> str:
         """The checked task; models that do not see the task need none.
@@ -213,60 +283,5 @@ class Predictor:
         return task
 
     def describe(self, answers: Sequence[Answer], task: str | None) -> dict[str, Any]:
-        """The complete answers for a task, as plain values for JSON."""
-        card = self.card
-        return {
-            "model": card.model,
-            "labels": card.labels,
-            "task": self.check_task(task) if card.sees_task else None,
-            "backbone": card.backbone,
-            "weights": card.weights,
-            "finetune": card.finetune,
-            "answers": [
-                {
-                    "name": answer.name,
-                    "probability": dict(zip(card.types, answer.probability.tolist(), strict=True)),
-                    "sigmoid": dict(zip(card.types, answer.sigmoid.tolist(), strict=True)),
-                    "chosen": [t for t, yes in zip(card.types, answer.chosen, strict=True) if yes],
-                }
-                for answer in answers
-            ],
-        }
-
-
-def report(answers: Sequence[Answer], card: Card, task: str) -> str:
-    """Answers as text: a block for one, one row each for several."""
-    whose = f"task {task}" if card.sees_task else "whatever the task"
-    if task not in card.learned:
-        whose += ", which it has not learned"
-    lines = [
-        f"model     {card.model}, {card.labels} labels, {whose}",
-        f"backbone  {card.backbone}, {card.weights}",
-        "",
-    ]
-    block = _block(answers[0]) if len(answers) == 1 else _rows(answers)
-    return "\n".join([*lines, *block]) + "\n"
-
-
-def _block(answer: Answer) -> list[str]:
-    rows = zip(answer.types, answer.probability, answer.sigmoid, answer.chosen, strict=True)
-    return [answer.name, f"{'':18}probability  sigmoid"] + [
-        f"{spelled(kind):18}{probability:11.3f}  {alone:7.3f}{'  chosen' if yes else ''}"
-        for kind, probability, alone, yes in rows
-    ]
-
-
-def _rows(answers: Sequence[Answer]) -> list[str]:
-    width = max(len(answer.name) for answer in answers)
-    kinds = [spelled(kind) for kind in answers[0].types]
-    lines = ["  ".join([" " * width, *kinds, "chosen"])]
-    for answer in answers:
-        cells = [f"{p:{len(kind)}.3f}" for kind, p in zip(kinds, answer.probability, strict=True)]
-        chosen = [kind for kind, yes in zip(kinds, answer.chosen, strict=True) if yes]
-        lines.append("  ".join([f"{answer.name:{width}}", *cells, ", ".join(chosen) or "none"]))
-    return lines
-
-
-def spelled(kind: str) -> str:
-    """A type as spelled in the published table."""
-    return kind.replace("_", " ").title()
+        """The complete answers for a task, as plain values for JSON: docs/answer.schema.json."""
+        return described(answers, self.card, self.check_task(task)).model_dump(mode="json")

@@ -8,7 +8,10 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from grasptypes.predictors.prediction import Answer, Card, spelled
+from grasptypes.predictors.answers import Answer, Card
+from grasptypes.predictors.explanation import small
+from grasptypes.predictors.general_predictor import TRAINED
+from grasptypes.predictors.known_kinds import LOOKS, read_looks
 
 CHOSEN, OTHER = "#2a6f97", "#b8c4cc"
 ROW_IN = 2.6
@@ -23,20 +26,22 @@ def draw_answers(
     asked = f"for {task}" if card.sees_task else "whatever the task"
     title = f"{card.model}, {card.labels} labels, {asked}; {card.backbone}, {card.weights}"
     height_in = ROW_IN * len(answers) + 0.5
-    figure = Figure(figsize=(8.0, height_in), layout="constrained")
-    panels = figure.subplots(len(answers), 2, squeeze=False, width_ratios=(1, 1.6))
-    for (shown, bars), picture, answer in zip(panels, pictures, answers, strict=True):
+    figure = Figure(figsize=(9.0, height_in), layout="constrained")
+    panels = figure.subplots(len(answers), 3, squeeze=False, width_ratios=(1, 1.6, 0.5))
+    for (shown, bars, alike), picture, answer in zip(panels, pictures, answers, strict=True):
         shown.imshow(picture)
         shown.set_axis_off()
         shown.set_title(_shortened(answer.name), fontsize="small", parse_math=False)
         _draw_bars(bars, answer)
-    panels[-1][1].set_xlabel("probability; chosen types are dark", fontsize="small")
+        _draw_alike(alike, answer)
+    panels[-1][1].set_xlabel("probability that it occurs; chosen types are dark", fontsize="small")
     figure.suptitle(title, fontsize="small", parse_math=False)
     return figure
 
 
-def montage(views: np.ndarray) -> np.ndarray:
-    """Views (N, H, W, 3) in rows of nearly equal length."""
+def montage(pictures: Sequence[np.ndarray], size_px: int) -> np.ndarray:
+    """Square images (S, S, 3) in rows of nearly equal length, `size_px` wide each."""
+    views = np.stack([small(picture, size_px) for picture in pictures])
     columns = int(np.ceil(np.sqrt(len(views))))
     empty = np.full((-len(views) % columns, *views.shape[1:]), 255, dtype=np.uint8)
     tiles = np.concatenate([views, empty])
@@ -50,11 +55,24 @@ def _shortened(name: str) -> str:
     return name if len(name) <= NAME_LENGTH else f"{name[:half]}…{name[1 - half :]}"
 
 
+def _draw_alike(axes: Axes, answer: Answer) -> None:
+    """The most similar known kinds, one above the other, with their names."""
+    axes.set_axis_off()
+    if not answer.neighbours:
+        return
+    looks = read_looks([one.name for one in answer.neighbours], TRAINED / LOOKS)
+    axes.imshow(np.vstack(looks))
+    axes.set_title("looks like", fontsize="small")
+    for number, (one, look) in enumerate(zip(answer.neighbours, looks, strict=True)):
+        name = one.name.replace("_", " ")
+        axes.text(0, number * len(look) + 4, name, fontsize=6, va="top")
+
+
 def _draw_bars(axes: Axes, answer: Answer) -> None:
-    colours = [CHOSEN if yes else OTHER for yes in answer.chosen]
-    kinds = [spelled(kind) for kind in answer.types]
-    bars = axes.barh(kinds, answer.probability, color=colours)
-    axes.bar_label(bars, [f"{value:.2f}" for value in answer.probability], padding=3, fontsize=8)
+    kinds, values = list(answer.probabilities), list(answer.probabilities.values())
+    colours = [CHOSEN if kind in answer.chosen else OTHER for kind in kinds]
+    bars = axes.barh(kinds, values, color=colours)
+    axes.bar_label(bars, [f"{value:.2f}" for value in values], padding=3, fontsize=8)
     axes.invert_yaxis()
     axes.set_xlim(0, LABEL_ROOM)
     axes.set_xticks(np.linspace(0, 1, 6))

@@ -6,7 +6,7 @@ import contextlib
 import struct
 import warnings
 import zlib
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from pathlib import Path
 
 import numpy as np
@@ -77,7 +77,7 @@ def check_photo(
     Raises:
         InputError: see :func:`read_photo`.
     """
-    with _opened(path, limits) as opened:
+    with opened_image(path, limits) as opened:
         _check_opaque(path, opened, background)
 
 
@@ -100,16 +100,7 @@ def read_photo(
         InputError: the file is not an image, is damaged, too small or too large, contains several
             images, has transparent pixels and no background is given, or does not contain the box.
     """
-    with _opened(path, limits) as opened:
-        if box is None:
-            opened.draft("RGB", (limits.reduce_px, limits.reduce_px))
-        opened.load()
-        _check_opaque(path, opened, background)
-        upright = _upright(path, opened)
-        if background is not None and upright.has_transparency_data:
-            behind = Image.new("RGBA", upright.size, background)
-            upright = Image.alpha_composite(behind, upright.convert("RGBA"))
-        upright = upright.convert("RGB")
+    upright = _read(path, limits, background, reduce=box is None)
     if box is not None:
         inside = 0 <= box[0] < box[2] <= upright.width and 0 <= box[1] < box[3] <= upright.height
         if not inside:
@@ -120,14 +111,39 @@ def read_photo(
     return padded(np.asarray(upright))
 
 
+def read_whole(
+    path: str | Path, limits: PhotoLimits, background: tuple[int, int, int] | None = None
+) -> np.ndarray:
+    """Read an image as (H, W, 3) uint8 in its own shape and size, turned upright; raises alike."""
+    return np.asarray(_read(path, limits, background, reduce=False))
+
+
+def _read(
+    path: str | Path, limits: PhotoLimits, background: tuple[int, int, int] | None, reduce: bool
+) -> Image.Image:
+    """The image in RGB, upright; `reduce` lets JPEG files be read in fewer pixels."""
+    with opened_image(path, limits) as opened:
+        if reduce:
+            opened.draft("RGB", (limits.reduce_px, limits.reduce_px))
+        opened.load()
+        _check_opaque(path, opened, background)
+        upright = _upright(path, opened)
+        if background is not None and upright.has_transparency_data:
+            behind = Image.new("RGBA", upright.size, background)
+            upright = Image.alpha_composite(behind, upright.convert("RGBA"))
+        return upright.convert("RGB")
+
+
 @contextlib.contextmanager
-def _opened(path: str | Path, limits: PhotoLimits) -> Iterator[Image.Image]:
+def opened_image(
+    path: str | Path, limits: PhotoLimits, modes: Collection[str] = _MODES
+) -> Iterator[Image.Image]:
     """Open an image and check its header; any error becomes an InputError."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # the size is checked below
         try:
             with Image.open(path, formats=FORMATS) as opened:
-                _check(path, opened, limits)
+                _check(path, opened, limits, modes)
                 yield opened
         except InputError:
             raise
@@ -153,7 +169,9 @@ def padded(picture: np.ndarray) -> np.ndarray:
     return square
 
 
-def _check(path: str | Path, picture: Image.Image, limits: PhotoLimits) -> None:
+def _check(
+    path: str | Path, picture: Image.Image, limits: PhotoLimits, modes: Collection[str]
+) -> None:
     """Check the header only, before anything is decoded."""
     width, height = picture.size
     if min(width, height) < limits.min_px:
@@ -165,20 +183,32 @@ def _check(path: str | Path, picture: Image.Image, limits: PhotoLimits) -> None:
     if picture.format != "MPO" and getattr(picture, "is_animated", False):
         message = "contains several images (an animation or pages): save the one you mean"
         raise InputError(path, "", message)
-    if picture.mode not in _MODES:
-        message = f"has mode {picture.mode}; allowed: 8 bits per channel, grey or colour"
+    if picture.mode not in modes:
+        allowed = "8 bits per channel, grey or colour" if modes is _MODES else "16 bits, grey"
+        message = f"has mode {picture.mode}; allowed: {allowed}"
         raise InputError(path, "", message)
 
 
 def _upright(path: str | Path, picture: Image.Image) -> Image.Image:
     """The image, turned as its metadata say; damaged metadata do not matter."""
-    plain, orientation = picture.copy(), None
+    plain, orientation = picture.copy(), _orientation(path, picture)
     for name in _METADATA:
         plain.info.pop(name, None)
-    with contextlib.suppress(InputError), parsing(path, "has damaged metadata"):
-        orientation = picture.getexif().get(ExifTags.Base.Orientation)
     plain.getexif()[ExifTags.Base.Orientation] = orientation
     return ImageOps.exif_transpose(plain)
+
+
+def is_turned(path: str | Path, limits: PhotoLimits) -> bool:
+    """Whether the metadata of an image turn it."""
+    with opened_image(path, limits) as opened:
+        return _orientation(path, opened) not in (None, 1)
+
+
+def _orientation(path: str | Path, picture: Image.Image) -> int | None:
+    found: int | None = None
+    with contextlib.suppress(InputError), parsing(path, "has damaged metadata"):
+        found = picture.getexif().get(ExifTags.Base.Orientation)
+    return found
 
 
 def _unknown(path: str | Path) -> str:

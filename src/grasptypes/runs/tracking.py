@@ -10,6 +10,7 @@ import contextlib
 import json
 import os
 import sqlite3
+import tempfile
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from importlib.metadata import version
@@ -17,6 +18,7 @@ from pathlib import Path
 
 import mlflow
 import numpy as np
+import yaml
 from filelock import FileLock
 from mlflow.entities import LifecycleStage, Metric, Param
 from mlflow.exceptions import MlflowException
@@ -27,8 +29,11 @@ from sqlalchemy.exc import SQLAlchemyError
 import grasptypes.errors
 from grasptypes.errors import InputError
 from grasptypes.files import file_sha256
+from grasptypes.predictors.general_backbone import weights_of
+from grasptypes.predictors.general_predictor import CARD, TRAINED, GeneralCard
 from grasptypes.predictors.predictor_files import ModelCard
 from grasptypes.settings.commands import TrackingSettings
+from grasptypes.settings.params import Params
 
 KEY_TAG = "grasptypes.key"
 MODEL_TAG = "grasptypes.model"
@@ -41,9 +46,23 @@ SERVING_PACKAGES = (
     *("efficientnet-lite-pytorch", "mlflow", "numpy", "pandas", "pandera", "pillow", "pyarrow"),
     *("pydantic", "safetensors", "scipy", "torch", "torchvision"),
 )
+MIN_PX = 32  # sides of the example
 # Images of any size, and a task for each.
 IMAGES = TensorSpec(np.dtype(np.uint8), (-1, -1, -1, 3), "image")
 PREDICTOR_INPUTS = Schema([IMAGES, TensorSpec(np.dtype(str), (-1,), "task")])
+# What only the predictor for unseen objects takes, 0 where unknown, and gives.
+GENERAL_INPUTS = Schema(
+    [
+        *PREDICTOR_INPUTS.inputs,
+        TensorSpec(np.dtype(np.float64), (-1, 3), "size_m"),
+        TensorSpec(np.dtype(np.float64), (-1,), "mass_kg"),
+        TensorSpec(np.dtype(np.int64), (-1, 4), "box"),
+    ]
+)
+GENERAL_PACKAGES = (
+    *SERVING_PACKAGES,
+    *("libigl", "manifold3d", "matplotlib", "numba", "pyyaml", "trimesh"),
+)
 _BATCH = 1000  # MLflow's maximum number of metrics per call
 _PARAM_LENGTH = 6000  # MLflow's maximum length of a parameter
 
@@ -164,7 +183,7 @@ class Store:
         for old in self._client.search_logged_models([self._experiment], filter_string=mine):
             self._client.delete_logged_model(old.model_id)
         card = ModelCard.read(model.card)
-        names, shape = ("probability", "sigmoid"), (-1, len(card.types))
+        names, shape = ("probability", "share"), (-1, len(card.types))
         outputs: list[ColSpec | TensorSpec] = [
             TensorSpec(np.dtype(np.float32), shape, name) for name in names
         ]
@@ -213,3 +232,40 @@ class Store:
         self._client.log_batch(run, params=params)
         for start in range(0, len(metrics), _BATCH):
             self._client.log_batch(run, metrics=metrics[start : start + _BATCH])
+
+
+def save_general(folder: str | Path, params: Params) -> None:
+    """Write the predictor for unseen objects to a new folder that `mlflow models serve` takes.
+
+    Raises:
+        MlflowException: the folder exists and is not empty.
+    """
+    card = GeneralCard.read(TRAINED / CARD)
+    types, shown = len(card.types), params.predict.known_kinds.shown
+    outputs: list[ColSpec | TensorSpec] = [
+        TensorSpec(np.dtype(np.float32), (-1, types), "probability"),
+        TensorSpec(np.dtype(np.float32), (-1, types), "share"),
+        TensorSpec(np.dtype(np.float32), (-1,), "strangeness"),
+        TensorSpec(np.dtype(str), (-1, shown), "neighbours"),
+    ]
+    example = {
+        "image": np.full((1, MIN_PX, MIN_PX, 3), 200, dtype=np.uint8),
+        "task": np.array([card.learned[0]]),
+        "size_m": np.array([[0.12, 0.0, 0.0]]),
+        "mass_kg": np.zeros(1),
+        "box": np.zeros((1, 4), dtype=np.int64),
+    }
+    with tempfile.TemporaryDirectory() as place:
+        settings = Path(place) / "params.yaml"
+        settings.write_text(yaml.safe_dump(params.model_dump(mode="json", by_alias=True)))
+        weights = weights_of(card.backbone, 0).path
+        files = {"trained": TRAINED, "params": settings, "weights": weights}
+        mlflow.pyfunc.save_model(
+            str(folder),
+            python_model=str(PACKAGE / "runs" / "serving.py"),
+            artifacts={name: str(path) for name, path in files.items()},
+            code_paths=[str(PACKAGE)],
+            signature=ModelSignature(GENERAL_INPUTS, Schema(outputs)),
+            input_example=example,
+            pip_requirements=[f"{name}=={version(name)}" for name in GENERAL_PACKAGES],
+        )

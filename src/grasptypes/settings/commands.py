@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
-from typing import Literal
+from typing import Annotated, Literal
 
-from grasptypes.settings.base import Between, Settings, Share, setting
+from pydantic import AfterValidator
+
+from grasptypes.settings.base import Between, Pair, Settings, Share, setting, upwards
 
 
 class PhotoLimits(Settings):
@@ -13,6 +15,60 @@ class PhotoLimits(Settings):
     min_px: int = setting("shortest side", ge=1)
     max_pixels: int = setting("width times height", ge=1)
     reduce_px: int = setting("longer sides are scaled down to this", ge=32)
+
+
+class DepthLimits(Settings):
+    """Which depth images `grasptypes predict` accepts."""
+
+    range_m: Between = setting("median distance of the object from the camera")
+    max_holes: Share = setting("largest share of the object's pixels without depth")
+    rise_m: float = setting("least height of an object above what it stands on", gt=0)
+    outliers: Share = setting("share of the nearest and of the farthest pixels that do not count")
+
+
+class CloudSettings(Settings):
+    """Which point clouds `grasptypes predict` accepts, and how it draws them."""
+
+    points: Annotated[Pair[int], AfterValidator(upwards)] = setting("number of points")
+    cells: int = setting("cells along the longest extent of the surface drawn", ge=8, le=256)
+    ball: float = setting("radius of each point's ball, in distances to its neighbour", gt=0)
+
+
+class ForegroundSettings(Settings):
+    """How objects are counted in an image of which no part is named."""
+
+    size_px: int = setting("longer sides are scaled down to this", ge=16, le=1024)
+    edge: float = setting("change of colour that ends the ground, levels per pixel", gt=0)
+    ground: Share = setting("smallest share of the image that is ground, else nothing is said")
+    empty: Share = setting("share of ground above which an image without objects is empty")
+    least: Share = setting("smallest share of the image that an object covers")
+    relative: Share = setting("smallest size of an object, relative to the largest one")
+    far: Share = setting("share of the image's sides below which a single object is too small")
+
+
+class ExplanationSettings(Settings):
+    """How `--explain` finds what in an image spoke for a type."""
+
+    window: Share = setting("side of the square that is hidden, as a share of the image")
+    steps: int = setting("places of the square along each side", ge=2, le=64)
+    blur: Share = setting("standard deviation of the blur that hides, as a share of the image")
+
+
+class KnownKindSettings(Settings):
+    """How images are compared with known kinds."""
+
+    directions: int = setting("principal directions in which images may be strange", ge=1, le=4096)
+    last_features: int = setting("features of the backbone's last block", ge=1, le=4096)
+    folds: int = setting("groups of kinds, each held out in turn", ge=2, le=100)
+    false_alarms: Share = setting("share of the images of held-out kinds that are called strange")
+    shown: int = setting("most similar kinds in an answer", ge=1, le=100)
+    picture_px: int = setting("side of the small images of kinds", ge=16, le=256)
+
+
+class DemoSettings(Settings):
+    """The page of `grasptypes demo`."""
+
+    max_upload_mb: float = setting("largest image", gt=0, le=1000)
 
 
 class PredictSettings(Settings):
@@ -25,7 +81,14 @@ class PredictSettings(Settings):
     views: int = setting("number of views of a mesh", ge=1, le=1000)
     size_m: Between = setting("extents of an object that are believed")
     mass_kg: Between = setting("masses of an object that are believed")
+    batch: int = setting("images that the backbone sees at once", ge=1, le=1000)
     photos: PhotoLimits
+    depth: DepthLimits
+    clouds: CloudSettings
+    foreground: ForegroundSettings
+    explanation: ExplanationSettings
+    known_kinds: KnownKindSettings
+    demo: DemoSettings
 
 
 class PlanComparisonSettings(Settings):

@@ -106,7 +106,7 @@ class MemorySettings(Settings):
     temperature: float = setting("by which the logits of the objects are divided", gt=0, le=100)
     size_spread: float = setting("by which the logarithm of an extent may be off", gt=0, le=10)
     mass_spread: float = setting("the same of the mass", gt=0, le=10)
-    known: Share = setting("share of the objects shown that are like one learned from")
+    known: float = setting("share of the objects shown that are like one learned from", gt=0, lt=1)
 
 
 class HeadSettings(Settings):

@@ -35,7 +35,7 @@ def test_a_disk_that_fills_up_meanwhile_costs_one_line(monkeypatch):
 
     monkeypatch.setattr(predict, "run", run)
     with pytest.raises(SystemExit) as end:
-        main(["predict", "--image", "cup.png"])
+        main(["predict", "cup.png"])
     assert str(end.value) == "error: No space left on device"
 
 
@@ -43,7 +43,7 @@ def test_a_reader_that_has_enough_is_no_error():
     code = (
         "from grasptypes.commands import command_line, predict; predict.run = lambda _: 'x' * 10**6"
     )
-    code += "; command_line.main(['predict', '--image', 'cup.png'])"
+    code += "; command_line.main(['predict', 'cup.png'])"
     command = [sys.executable, "-c", code]
     with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
         process.stdout.close()
@@ -65,7 +65,7 @@ def test_a_command_that_is_cut_off_ends_without_a_trace(monkeypatch, error, stat
 
     monkeypatch.setattr(predict, "run", run)
     with pytest.raises(SystemExit) as end:
-        main(["predict", "--image", "cup.png"])
+        main(["predict", "cup.png"])
     assert str(end.value.code).startswith(status)
 
 
@@ -75,7 +75,7 @@ def test_other_errors_of_a_command_are_not_swallowed(monkeypatch):
 
     monkeypatch.setattr(predict, "run", run)
     with pytest.raises(RuntimeError, match="ours"):
-        main(["predict", "--image", "cup.png"])
+        main(["predict", "cup.png"])
 
 
 def test_names_that_are_too_long_are_found_at_once(tmp_path):

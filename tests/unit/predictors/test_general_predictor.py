@@ -1,15 +1,19 @@
 """The predictor that comes with the package: it answers at once, and size, mass and task matter."""
 
 import json
+from pathlib import Path
 
+import jsonschema
 import numpy as np
 import pytest
+from learning import ROOT
 from PIL import Image
 from tests.unit.settings import PARAMS
 
 from grasptypes.__main__ import main
 from grasptypes.errors import InputError
 from grasptypes.files import file_sha256
+from grasptypes.predictors.answers import PLACE, report
 from grasptypes.predictors.general_predictor import (
     CARD,
     HEAD,
@@ -19,7 +23,7 @@ from grasptypes.predictors.general_predictor import (
     write_general,
 )
 from grasptypes.predictors.known_size import facts_of_size
-from grasptypes.predictors.prediction import Predictor, report
+from grasptypes.predictors.prediction import Predictor
 
 PICTURE = np.random.default_rng(2).integers(0, 256, (64, 64, 3), dtype=np.uint8)
 
@@ -38,17 +42,18 @@ def test_size_mass_and_task_change_the_answer_which_is_made_of_probabilities(pre
         {"task": "use", "size_m": [0.25, 0.2, 0.2], "mass_kg": 2.0},
     ]
     answers = [predictor.predict(PICTURE, **said) for said in asked]
-    assert len({answer.probability.round(4).tobytes() for answer in answers}) == len(asked)
+    assert len({str(answer.shares) for answer in answers}) == len(asked)
     for answer in answers:
-        assert answer.probability.sum() == pytest.approx(1)
-        assert 0 < answer.sigmoid.min() < answer.sigmoid.max() < 1
-    small, large = (dict(zip(a.types, a.probability, strict=True)) for a in answers[2:4])
-    assert small["precision"] > large["precision"]
+        assert sum(answer.shares.values()) == pytest.approx(1)
+        chances = list(answer.probabilities.values())
+        assert 0 < min(chances) < max(chances) < 1
+        assert chances == sorted(chances, reverse=True)
+        assert answer.confidence == pytest.approx(np.mean([max(p, 1 - p) for p in chances]))
+    assert answers[2].shares["Precision"] > answers[3].shares["Precision"]
 
 
 def test_it_answers_for_tasks_that_it_has_not_learned(predictor):
     assert "pour" not in predictor.card.learned
-    assert predictor.predict(PICTURE, "pour").probability.sum() == pytest.approx(1)
     answer = predictor.predict(PICTURE, "pour")
     assert "task pour, which it has not learned" in report([answer], predictor.card, "pour")
     assert "not learned" not in report([answer], predictor.card, "use")
@@ -59,10 +64,42 @@ def test_it_answers_for_tasks_that_it_has_not_learned(predictor):
 def test_the_command_needs_no_training(tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
     Image.fromarray(PICTURE).save("photo.png")
-    main(["predict", "--image", "photo.png", "--task", "use", "--size-m", "0.1", "--json"])
+    main(["predict", "photo.png", "--task", "use", "--size", "10cm", "--json"])
     told = json.loads(capsys.readouterr().out)
     assert told["model"] == "general"
-    assert sum(told["answers"][0]["probability"].values()) == pytest.approx(1)
+    assert sum(each["share"] for each in told["answers"][0]["types"]) == pytest.approx(1)
+    assert told["answers"][0]["size_m"] == [0.1]
+
+
+def test_the_command_takes_several_images_masks_and_depth(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    mask = np.zeros((64, 64), dtype=bool)
+    mask[10:50, 10:60] = True
+    Image.fromarray(PICTURE).save("a.png")
+    Image.fromarray(PICTURE[::-1]).save("b.png")
+    Image.fromarray(np.uint8(255 * mask)).save("mask.png")
+    Image.fromarray(np.where(mask, 500, 700).astype(np.uint16)).save("d.png")
+    Path("K.json").write_text('{"fx": 300, "fy": 300, "cx": 32, "cy": 32}')
+
+    def told(*words):
+        main(["predict", *words, "--task", "use", "--json"])
+        content = json.loads(capsys.readouterr().out)
+        jsonschema.validate(content, json.loads((ROOT / PLACE).read_text()))
+        return content["answers"]
+
+    apart, (both,) = told("a.png", "b.png"), told("a.png", "b.png", "--same-object")
+    assert [one["name"] for one in apart] == ["a.png", "b.png"]
+    assert both["name"] == "a.png and 1 more, mean of 2 images"
+    chances = [{each["type"]: each["probability"] for each in one["types"]} for one in apart]
+    for each in both["types"]:
+        mean = np.mean([one[each["type"]] for one in chances])
+        assert each["probability"] == pytest.approx(mean, abs=1e-6)
+    measured = ("--mask", "mask.png", "--depth", "d.png", "--intrinsics", "K.json")
+    (answer,) = told("a.png", *measured, "--explain", "why.png", "--picture", "answer.png")
+    assert answer["size_m"] == [pytest.approx(49 * 0.5 / 300, rel=0.01)]
+    for name in ("why.png", "answer.png"):
+        with Image.open(name) as figure:
+            assert figure.width > 800
 
 
 def test_a_written_head_is_the_one_that_is_read(predictor, tmp_path):

@@ -14,7 +14,8 @@ from grasptypes.__main__ import main
 from grasptypes.errors import InputError
 from grasptypes.labels.samples import TYPES
 from grasptypes.predictors import prediction
-from grasptypes.predictors.prediction import Answer, predictor_paths
+from grasptypes.predictors.answers import Answer, spelled
+from grasptypes.predictors.prediction import predictor_paths
 from grasptypes.predictors.prediction_pictures import draw_answers, montage
 from grasptypes.predictors.predictor_files import ModelCard, load_predictor
 from grasptypes.predictors.weights import WEIGHTS_VARIABLE, weights_file
@@ -52,7 +53,7 @@ def predict(checkout, monkeypatch, capsys, tmp_path):
 
 
 def test_the_command_says_what_the_predictor_says(predict, checkout):
-    out, _, status = predict("--image", "photo.png", "--task", "wash", "--json")
+    out, _, status = predict("photo.png", "--task", "wash", "--json")
     said = json.loads(out)
     assert status == 0
     assert (said["model"], said["task"]) == ("task_vector", "wash")
@@ -61,13 +62,16 @@ def test_the_command_says_what_the_predictor_says(predict, checkout):
     predictor = load_predictor(folder / "predictor.safetensors", folder / "predictor.json", weights)
     logits = predictor.logits(PICTURE[None], "wash")[0]
     (answer,) = said["answers"]
-    np.testing.assert_allclose(
-        list(answer["probability"].values()), softmax(logits, axis=-1), atol=1e-6
-    )
-    assert answer["chosen"] == [t for t, yes in zip(TYPES, logits > 0, strict=True) if yes]
-    worded, told, _ = predict("--image", "photo.png", "--task", "rinse the cup", "--json")
+    shares = {each["type"]: each["share"] for each in answer["types"]}
+    expected = dict(zip(map(spelled, TYPES), softmax(logits, axis=-1), strict=True))
+    assert shares == pytest.approx(expected, abs=1e-6)
+    chosen = {spelled(name) for name, value in zip(TYPES, logits, strict=True) if value > 0}
+    assert {each["type"] for each in answer["types"] if each["chosen"]} == chosen
+    chances = [each["probability"] for each in answer["types"]]
+    assert chances == sorted(chances, reverse=True)
+    worded, told, _ = predict("photo.png", "--task", "rinse the cup", "--json")
     assert (json.loads(worded), told) == (said, "task: wash\n")
-    other = json.loads(predict("--image", "photo.png", "--task", "use", "--json")[0])
+    other = json.loads(predict("photo.png", "--task", "use", "--json")[0])
     assert other["answers"] != said["answers"]
 
 
@@ -77,7 +81,7 @@ def test_a_folder_has_a_row_a_picture_and_a_drawing(predict, tmp_path):
     for name in ("b.png", "a.jpg"):
         Image.fromarray(PICTURE).save(folder / name)
     drawing = tmp_path / "drawn.png"
-    out, _, _ = predict("--image", folder, "--model", "a", "--picture", drawing)
+    out, _, _ = predict(folder, "--model", "a", "--picture", drawing)
     rows = out.splitlines()
     assert "no_task" in rows[0]
     assert "whatever the task" in rows[0]
@@ -88,14 +92,15 @@ def test_a_folder_has_a_row_a_picture_and_a_drawing(predict, tmp_path):
 
 def test_a_mesh_is_seen_from_several_sides(predict, tmp_path):
     trimesh.creation.box((0.06, 0.08, 0.2)).export(tmp_path / "box.stl")
-    out, _, _ = predict("--object", "box.stl", "--task", "use", "--json")
+    out, _, _ = predict("box.stl", "--task", "use", "--json")
     (answer,) = json.loads(out)["answers"]
     assert answer["name"] == "box.stl, mean of 3 views"
-    assert sum(answer["probability"].values()) == pytest.approx(1, abs=1e-5)
+    assert sum(each["share"] for each in answer["types"]) == pytest.approx(1, abs=1e-5)
+    assert answer["size_m"] == pytest.approx([0.2, 0.08, 0.06])
     (tmp_path / "other.stl").write_bytes((tmp_path / "box.stl").read_bytes())
-    again = predict("--object", "other.stl", "--task", "use", "--json")[0]
+    again = predict("other.stl", "--task", "use", "--json")[0]
     assert again.replace("other.stl", "box.stl") == out  # whatever its name
-    assert "unit: cm or mm" in predict("--object", _huge(tmp_path), "--task", "use")[1]
+    assert "unit: cm or mm" in predict(_huge(tmp_path), "--task", "use")[1]
 
 
 def _huge(folder):
@@ -111,7 +116,7 @@ def _huge(folder):
     ],
 )
 def test_what_a_model_cannot_answer_is_one_line(predict, arguments, expected):
-    out, err, status = predict("--image", "photo.png", *arguments)
+    out, err, status = predict("photo.png", *arguments)
     assert (out, status) == ("", 1)
     assert expected in err
 
@@ -129,8 +134,8 @@ def test_bad_pictures_of_a_folder_are_skipped_with_a_reason(predict, tmp_path):
         "skipped note.txt: not an image (PNG",
         "skipped zero.png: not an image",
     ]
-    asked = ("--image", tmp_path, "--model", "a")
-    alone = predict("--image", "photo.png", "--model", "a", "--json")[0]
+    asked = (tmp_path, "--model", "a")
+    alone = predict("photo.png", "--model", "a", "--json")[0]
     drawn = tmp_path / "new" / "drawn.png"
     for more in ((), ("--picture", drawn)):
         out, err, status = predict(*asked, "--json", *more)
@@ -146,7 +151,7 @@ def test_a_folder_of_damaged_pictures_is_rejected(predict, tmp_path):
     for name in ("photo.png", "zero.png"):
         (tmp_path / name).write_bytes(whole[: len(whole) // 2])
     drawn = tmp_path / "new" / "drawn.png"
-    out, err, status = predict("--image", tmp_path, "--model", "a", "--picture", drawn)
+    out, err, status = predict(tmp_path, "--model", "a", "--picture", drawn)
     assert (out, status) == ("", 1)
     reason = "cannot be read as an image"
     assert err.startswith(f"error: {tmp_path}: contains no usable image; photo.png: {reason}")
@@ -157,19 +162,19 @@ def test_a_bad_picture_is_told_before_the_model_is_loaded(predict, tmp_path, mon
     monkeypatch.setattr(prediction.Predictor, "load", None)
     (tmp_path / "photo.png").write_bytes((tmp_path / "photo.png").read_bytes()[:900])
     for place in ("photo.png", tmp_path):
-        assert "cannot be read" in predict("--image", place, "--model", "a")[1]
+        assert "cannot be read" in predict(place, "--model", "a")[1]
 
 
 def test_other_weights_are_rejected_but_not_another_name(predict, checkout, monkeypatch, tmp_path):
-    said = predict("--image", "photo.png", "--task", "use")
+    said = predict("photo.png", "--task", "use")
     (tmp_path / "renamed.pth").write_bytes((checkout / "random.pth").read_bytes())
     monkeypatch.setenv(WEIGHTS_VARIABLE, str(tmp_path / "renamed.pth"))
-    assert predict("--image", "photo.png", "--task", "use") == said
+    assert predict("photo.png", "--task", "use") == said
     state = torch.load(checkout / "random.pth")
     state["classifier.1.bias"] += 1
     torch.save(state, tmp_path / "other.pth")
     monkeypatch.setenv(WEIGHTS_VARIABLE, str(tmp_path / "other.pth"))
-    _, err, status = predict("--image", "photo.png", "--task", "use")
+    _, err, status = predict("photo.png", "--task", "use")
     assert status == 1
     assert "trained on mobilenet_v2, random.pth" in err
     assert f"set {WEIGHTS_VARIABLE} to that file" in err
@@ -187,10 +192,10 @@ def test_names_are_no_mathematics_and_have_room(checkout):
     card = ModelCard.read(checkout / "models/simulated/task_vector/predictor.json")
     even = np.full(len(TYPES), 1 / len(TYPES))
     names = ["a $\\cup$ of $5_$.png", "x" * 100 + ".png"]
-    answers = [Answer(name, TYPES, even, even) for name in names]
+    answers = [Answer.of(name, TYPES, even, even) for name in names]
     figure = draw_answers([PICTURE, PICTURE], answers, card, "use of $_$")
     figure.canvas.draw()
-    first, _, second, _ = (axes.get_title() for axes in figure.axes)
+    first, _, _, second, _, _ = (axes.get_title() for axes in figure.axes)
     assert first == names[0]
     assert len(second) == 40
     assert second.startswith("xxx")
@@ -201,7 +206,7 @@ def test_names_that_are_no_text_are_drawn_and_printed(predict, tmp_path):
     name = "cup\udcff\x1b[31m.png"
     (tmp_path / "cups").mkdir()
     (tmp_path / "photo.png").rename(tmp_path / "cups" / name)
-    asked = ("--image", "cups", "--task", "use", "--picture", "drawn.png")
+    asked = ("cups", "--task", "use", "--picture", "drawn.png")
     out, _, status = predict(*asked)
     assert status == 0
     assert "cup??[31m.png" in out.encode().decode()
@@ -209,4 +214,4 @@ def test_names_that_are_no_text_are_drawn_and_printed(predict, tmp_path):
 
 
 def test_montage_fills_its_last_row():
-    assert montage(np.zeros((5, 4, 4, 3), np.uint8)).shape == (8, 12, 3)
+    assert montage(np.zeros((5, 4, 4, 3), np.uint8), 4).shape == (8, 12, 3)

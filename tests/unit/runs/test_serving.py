@@ -44,7 +44,7 @@ def ask(logged, tasks, pictures=PICTURES):
 
 
 def test_it_says_what_the_predictor_says(logged):
-    np.testing.assert_allclose(ask(logged, TASKS)["probability"], logged[1], atol=1e-5)
+    np.testing.assert_allclose(ask(logged, TASKS)["share"], logged[1], atol=1e-5)
     assert np.abs(np.diff(logged[1], axis=0)).max() > 0.01  # images and tasks that differ
     assert logged[0].metadata.saved_input_example_info is not None
 
