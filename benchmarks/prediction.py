@@ -218,7 +218,7 @@ def confidence_is_right(params: Params) -> Iterator[str]:
     """Expected and actual share of types that are rightly chosen or not, on held-out kinds."""
     told = pd.read_parquet("data/general/answers.parquet")
     told = told[(told["shown"] == KINDS) & (told["model"] == WITH_SIZE)]
-    labels = read_samples("data/general/samples.csv").set_index(["object", "task"])[list(LABELS)]
+    labels = read_samples("data/kinds/samples.csv").set_index(["object", "task"])[list(LABELS)]
     pairs = pd.MultiIndex.from_frame(told[["object", "task"]])
     known = pairs.isin(labels.index)
     chances = told.loc[known, list(OCCURS)].to_numpy()
