@@ -32,10 +32,9 @@ if __name__ == "__main__":
             return grow_forest(samples, rows, key, settings.forest)
 
         methods = {NETWORK_METHOD: lambda fold: read_network(networks[fold]), FOREST_METHOD: grow}
-        kinds, roles, folds = [], [], kind_folds(samples.families, *protocol)
-        for method, learn in methods.items():
-            found = held_out_roles(samples, folds, learn, settings)
-            kinds.append(kind_table(method, samples, found))
-            roles.append(role_table(method, samples, found))
+        folds = kind_folds(samples.families, *protocol)
+        answers = held_out_roles(samples, folds, methods, settings)
+        kinds = [kind_table(method, samples, found) for method, found in answers.items()]
+        roles = [role_table(method, samples, found) for method, found in answers.items()]
         write_table(pd.concat(kinds), snakemake.output.kinds, KIND_SCHEMA)
         write_table(pd.concat(roles), snakemake.output.roles, ROLE_SCHEMA)

@@ -108,9 +108,11 @@ def _body(name: str, mesh: trimesh.Trimesh, filling: bool, repairs: list[str]) -
     """Close, if `filling`, and orient one surface; None if it stays open."""
     if filling and not mesh.is_watertight and mesh.fill_holes():
         repairs.append("filled small holes")
+    if _is_open(mesh):
+        return None
     if not mesh.is_winding_consistent:
         before, areas = mesh.face_normals.copy(), mesh.area_faces
-        trimesh.repair.fix_winding(mesh)
+        mesh.faces = igl.bfs_orient(np.ascontiguousarray(mesh.faces, dtype=np.int64))[0]
         # Most of the surface keeps its side.
         if areas @ np.einsum("fi,fi->f", before, mesh.face_normals) < 0:
             mesh.invert()
@@ -126,6 +128,13 @@ def _body(name: str, mesh: trimesh.Trimesh, filling: bool, repairs: list[str]) -
         )
     )
     return None if solid.is_empty() else Body(name, mesh, solid, inward)
+
+
+def _is_open(mesh: trimesh.Trimesh) -> bool:
+    """Whether an edge has an odd number of faces, so that turning faces does not close it."""
+    faces_at_edge = np.bincount(mesh.edges_unique_inverse)
+    start, end = mesh.edges_unique.T
+    return bool((faces_at_edge[start != end] % 2).any())
 
 
 def assembled(

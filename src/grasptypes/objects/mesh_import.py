@@ -5,15 +5,9 @@ from __future__ import annotations
 import logging
 from pathlib import Path
 
-import igl
-import numpy as np
-import trimesh
-from manifold3d import Manifold
-from numpy.typing import NDArray
-
 from grasptypes.errors import InputError
-from grasptypes.objects import solids
 from grasptypes.objects.bodies import BODY, assembled, closed_bodies, concatenated, tidied
+from grasptypes.objects.leaky_meshes import rebuilt
 from grasptypes.objects.mesh_files import read_meshes
 from grasptypes.objects.mesh_limits import check_size, check_volume
 from grasptypes.objects.parts import ImportedModel, ObjectModel, Part
@@ -44,7 +38,11 @@ def import_model(own: OwnObject, limits: ImportLimits) -> ImportedModel:
     if bodies:
         found, cavities = assembled(bodies, repairs)
     else:
-        found = {BODY: _rebuild(path, tidied(concatenated(pieces), []), limits, repairs)}
+        solid, spacing_m = rebuilt(path, tidied(concatenated(pieces), []), limits)
+        found = {BODY: solid}
+        repairs.append(
+            f"closed holes by rebuilding the surface at {1e3 * scale * spacing_m:.1f} mm"
+        )
     for name in own.parts:
         if name not in found:
             message = f"has no part '{name}'; its parts: {', '.join(found)}"
@@ -71,44 +69,3 @@ def import_model(own: OwnObject, limits: ImportLimits) -> ImportedModel:
     for repair in repairs:
         LOGGER.warning("%s: %s", path, repair)
     return ImportedModel(model, scale, own.mass_kg, tuple(repairs))
-
-
-def _rebuild(
-    path: str | Path, mesh: trimesh.Trimesh, limits: ImportLimits, repairs: list[str]
-) -> Manifold:
-    """Rebuild the surface of the volume that a leaky mesh encloses by its winding number."""
-    spacing_m = float(mesh.extents.max()) / limits.rebuild_cells
-    origin_m = mesh.bounds[0] - 3 * spacing_m
-    shape = np.ceil((mesh.bounds[1] - origin_m) / spacing_m).astype(int) + 4
-    nodes = np.ascontiguousarray(np.indices(shape).reshape(3, -1).T * spacing_m + origin_m)
-    vertices = np.ascontiguousarray(mesh.vertices, dtype=np.float64)
-    faces = np.ascontiguousarray(mesh.faces, dtype=np.int64)
-    winding = np.abs(igl.fast_winding_number(vertices, faces, nodes))
-    unsure = int(((winding > 0.25) & (winding < 0.75)).sum())
-    enclosed = int((winding >= 0.75).sum())
-    if unsure > limits.max_open_share * enclosed:
-        raise InputError(
-            path, "", "is an open shell without volume: close its holes or give its walls thickness"
-        )
-    distances = np.sqrt(igl.point_mesh_squared_distance(nodes, vertices, faces)[0])
-    values = np.where(winding > 0.5, -distances, distances)
-    solid = _marched(values.reshape(shape), nodes)
-    repairs.append(f"closed holes by rebuilding the surface at {1e3 * spacing_m:.1f} mm")
-    return solid
-
-
-def _marched(values: NDArray[np.float64], nodes: NDArray[np.float64]) -> Manifold:
-    """Return the solid of negative values (nx, ny, nz) at nodes (nx * ny * nz, 3)."""
-    nx, ny, nz = values.shape
-    # In libigl's grids, x varies fastest.
-    order = np.arange(nodes.shape[0]).reshape(values.shape).transpose(2, 1, 0).reshape(-1)
-    vertices, faces = igl.marching_cubes(
-        np.ascontiguousarray(values.reshape(-1)[order], dtype=np.float64),
-        np.ascontiguousarray(nodes[order]),
-        nx,
-        ny,
-        nz,
-        0.0,
-    )[:2]
-    solid = solids.from_mesh(vertices, faces)
-    return solid if solid.volume() > 0 else solids.from_mesh(vertices, faces[:, ::-1])

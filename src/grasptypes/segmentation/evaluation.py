@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import logging
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -26,6 +27,8 @@ from grasptypes.segmentation.true_roles import TrueRoles
 from grasptypes.settings.holds import read_hold_table
 from grasptypes.settings.roles import read_roles
 from grasptypes.settings.segmentation import SegmentationSettings
+
+LOGGER = logging.getLogger("grasptypes")
 
 NETWORK_METHOD, FOREST_METHOD = METHODS = ("network", "forest")
 SHARE = pa.Check.in_range(0, 1)
@@ -100,31 +103,45 @@ class FoundRoles:
 def held_out_roles(
     samples: RoleSamples,
     folds: NDArray[np.intp],
-    learn: Callable[[int], RoleModel],
+    methods: Mapping[str, Callable[[int], RoleModel]],
     settings: SegmentationSettings,
-) -> FoundRoles:
+) -> dict[str, FoundRoles]:
     """Roles of the first shape of each kind, by models that have seen none of its family.
 
     Args:
         folds: (S,) fold of each shape.
-        learn: gives the model of a fold, which has seen all others; one is kept at a time.
+        methods: by name, what gives the model of a fold, which has seen all others; the models of
+            one fold are kept at a time.
+
+    Returns:
+        What each method finds, by name.
     """
     kinds = np.array([shape_of(name)[0] for name in samples.shapes])
     rows = np.unique(kinds, return_index=True)[1]
     rows = rows[np.lexsort([rows, folds[rows]])]
-    pointwise, smoothed = [], []
+    pointwise: dict[str, list[NDArray[np.intp]]] = {method: [] for method in methods}
+    smoothed: dict[str, list[NDArray[np.intp]]] = {method: [] for method in methods}
     for fold in np.unique(folds[rows]):
-        model = learn(int(fold))
-        for row in rows[folds[rows] == fold]:
+        models = {method: learn(int(fold)) for method, learn in methods.items()}
+        tested = rows[folds[rows] == fold]
+        for row in tested:
             points_m, normals = (
                 each[row].astype(np.float64) for each in (samples.points_m, samples.normals)
             )
-            chances = model.probabilities(describe_surface(points_m, normals, settings))
-            parts = likely_parts(points_m, normals, chances, model.roles, settings)
-            pointwise.append(chances.argmax(axis=1))
-            smoothed.append(role_index(parts))
+            descriptors = describe_surface(points_m, normals, settings)
+            for method, model in models.items():
+                chances = model.probabilities(descriptors)
+                parts = likely_parts(points_m, normals, chances, model.roles, settings)
+                pointwise[method].append(chances.argmax(axis=1))
+                smoothed[method].append(role_index(parts))
+        LOGGER.info("fold %d: tested %d kinds", fold, len(tested))
     order = np.argsort(rows)
-    return FoundRoles(rows[order], np.stack(pointwise)[order], np.stack(smoothed)[order])
+    return {
+        method: FoundRoles(
+            rows[order], np.stack(pointwise[method])[order], np.stack(smoothed[method])[order]
+        )
+        for method in methods
+    }
 
 
 def role_index(parts: Parts) -> NDArray[np.intp]:

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+import pandas as pd
 from numpy.typing import NDArray
 from scipy.sparse import csr_array
 from scipy.sparse.csgraph import connected_components
@@ -147,21 +148,21 @@ def _components(
 ) -> NDArray[np.intp]:
     """Part (N,) of each point: neighbours with the same role; crumbs join the part beside them."""
     weights = neighbours.tocoo()
-    index = np.asarray(role)
+    same = role[weights.row] == role[weights.col]
+    graph = csr_array(
+        (weights.data[same], (weights.row[same], weights.col[same])), shape=weights.shape
+    )
+    index = np.asarray(connected_components(graph, directed=False)[1], dtype=np.intp)
     while True:
-        same = index[weights.row] == index[weights.col]
-        graph = csr_array(
-            (weights.data[same], (weights.row[same], weights.col[same])), shape=weights.shape
-        )
-        count, index = connected_components(graph, directed=False)
-        sizes = np.bincount(index, minlength=count)
+        index = pd.factorize(index)[0]  # parts are numbered by their first points
+        sizes = np.bincount(index)
         smallest = int(sizes.argmin())
-        if count == 1 or sizes[smallest] >= smallest_share * len(points_m):
+        if len(sizes) == 1 or sizes[smallest] >= smallest_share * len(points_m):
             return np.asarray(index)
         touching = (index[weights.row] == smallest) & (index[weights.col] != smallest)
-        beside = np.bincount(index[weights.col[touching]], weights.data[touching], minlength=count)
-        if not touching.any():  # a crumb apart from everything joins the nearest part
+        beside = np.bincount(index[weights.col[touching]], weights.data[touching])
+        if not beside.any():  # a crumb apart from everything joins the nearest part
             apart = index != smallest
             nearest = cKDTree(points_m[apart]).query(points_m[~apart])[1]
-            beside = np.bincount(index[apart][nearest], minlength=count)
+            beside = np.bincount(index[apart][nearest])
         index[index == smallest] = int(beside.argmax())

@@ -8,6 +8,7 @@ import trimesh
 from tests.unit.settings import PARAMS
 
 from grasptypes.errors import InputError
+from grasptypes.objects.bodies import closed_bodies
 from grasptypes.objects.mesh_import import import_model
 from grasptypes.objects.preparation import physical_properties, prepare
 from grasptypes.settings.objects import OwnObject
@@ -146,3 +147,21 @@ def test_a_few_faces_turned_the_wrong_way_do_not_fill_a_cavity(tmp_path):
     found = imported(tmp_path / "a.ply")
     assert found.repairs == TURNED
     assert mass_of(found) == pytest.approx(1000 * (volume(0.04) - volume(0.03)), rel=1e-5)
+
+
+def test_faces_that_face_anywhere_are_turned_outwards(tmp_path):
+    mesh = shell(0.04, OUT)
+    faces = mesh.faces.copy()
+    some = np.random.default_rng(0).random(len(faces)) < 0.3
+    faces[some] = faces[some][:, ::-1]
+    repairs = []
+    (body,) = closed_bodies({"ball": [trimesh.Trimesh(mesh.vertices, faces)]}, repairs)
+    assert body.solid.volume() == pytest.approx(mesh.volume)
+    assert not body.inward
+    assert repairs == ["turned faces outwards"]
+
+
+def test_what_stays_open_has_no_bodies():
+    mesh = shell(0.04, OUT)
+    faces = np.delete(mesh.faces, np.arange(5, 300, 7), axis=0)
+    assert closed_bodies({"ball": [trimesh.Trimesh(mesh.vertices, faces[:-200])]}, []) is None

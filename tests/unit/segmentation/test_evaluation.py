@@ -73,7 +73,9 @@ def test_a_forest_knows_the_shapes_that_it_has_seen():
     forest = grow_forest(samples, np.arange(2), ("test", 0), SETTINGS.forest)
     chances = forest.probabilities(samples.descriptors[1])
     assert chances.sum(axis=1) == pytest.approx(1)
-    found = held_out_roles(samples, np.zeros(2, dtype=np.intp), lambda fold: forest, SETTINGS)
+    folds = np.zeros(2, dtype=np.intp)
+    methods = {FOREST_METHOD: lambda fold: forest}
+    found = held_out_roles(samples, folds, methods, SETTINGS)[FOREST_METHOD]
     kinds = KIND_SCHEMA.validate(kind_table(FOREST_METHOD, samples, found))
     assert kinds.accuracy.min() > 0.6
     roles = ROLE_SCHEMA.validate(role_table(FOREST_METHOD, samples, found))

@@ -63,6 +63,17 @@ def test_parts_apart_have_names_of_their_own():
     assert [part["role"] for part in parts.summary()["parts"]].count("head") == 2
 
 
+def test_a_crumb_that_touches_nothing_joins_the_nearest_part():
+    points_m, normals = rod(1484)
+    # As many points as have no neighbours but each other, and less than the smallest part.
+    crumb = points_m[:16] * 0.01 + [0.03, 0, 0.02]
+    points_m, normals = np.concatenate([points_m, crumb]), np.concatenate([normals, normals[:16]])
+    settings = SETTINGS.changed(smallest_share=0.02, neighbours=12)
+    parts = find_parts(points_m, normals, settings, ByHeight(points_m))
+    assert sorted(parts.roles) == ["handle", "head"]
+    assert set(parts.part_index[-16:]) == {list(parts.roles).index("handle")}
+
+
 @pytest.mark.parametrize(
     ("name", "role"),
     [
