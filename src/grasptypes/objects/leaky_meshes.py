@@ -62,6 +62,8 @@ def rebuilt(
         raise InputError(
             path, "", "is an open shell without volume: close its holes or give its walls thickness"
         )
+    if not (winding > 0.5).any():
+        raise InputError(path, "", "encloses no volume: it is flat")
     # What bulges out of a hole ends at the bounds of the mesh, four nodes inside the grid's.
     winding *= np.pad(np.ones(shape - 8), 4)
     # Only the distances of nodes beside the new surface say where it is.
