@@ -1,12 +1,14 @@
 # Does choosing grasp types first help? Not part of the main job: snakemake -j2 reports/planning.csv
 from types import SimpleNamespace
 
+CHOSEN_BY_GENERAL = PARAMS.plan.comparison.model == "general"
 ASKED = SimpleNamespace(labels=config["predict"]["labels"])
 
 
 rule compare_plans:
     input:
-        inputs=lambda wildcards: learning_inputs(ASKED),
+        answers="data/general/answers.parquet" if CHOSEN_BY_GENERAL else [],
+        inputs=lambda wildcards: [] if CHOSEN_BY_GENERAL else learning_inputs(ASKED),
         samples=SAMPLES[ASKED.labels],
         folds=rules.split_folds.output.folds,
         backbone=rules.prepare_backbone.output.record,

@@ -16,14 +16,16 @@ from grasptypes.planning.plan_comparison import (
     PREDICTED,
     Case,
     compare,
+    held_out_types,
     text,
     unseen_types,
 )
 from grasptypes.planning.sessions import PlanningContext
 from grasptypes.predictors.answers import spelled
+from grasptypes.predictors.general_protocol import ANSWER_SCHEMA
 from grasptypes.predictors.problem import read_problem
 from grasptypes.settings.params import Params
-from grasptypes.tables import write_table
+from grasptypes.tables import read_table, write_table
 
 
 def cases(
@@ -35,14 +37,17 @@ def cases(
     """All plans to make.
 
     Args:
-        inputs: those of `read_problem`.
+        inputs: answers of `general` if it chooses types, else those of `read_problem`.
         folders: of the prepared objects, by name.
         tasks: tasks with labels, each with its colour shift.
         params: all parameters.
     """
-    model = params.predict.labels, params.plan.comparison.model
-    problem = read_problem(inputs, model, tasks, params.predictors)
-    predicted = unseen_types(problem, params.plan.comparison.seeds, params.seed)
+    if inputs["answers"]:
+        predicted = held_out_types(read_table(inputs["answers"], ANSWER_SCHEMA))
+    else:
+        model = params.predict.labels, params.plan.comparison.model
+        problem = read_problem(inputs, model, tasks, params.predictors)
+        predicted = unseen_types(problem, params.plan.comparison.seeds, params.seed)
     found = []
     for row in read_samples(inputs["samples"]).itertuples():
         name = str(row.object), str(row.task)

@@ -23,6 +23,7 @@ from grasptypes.labels.samples import TYPES
 from grasptypes.planning.plan_contacts import grips_of, plan_contacts
 from grasptypes.planning.sessions import PlanningContext, plan_sessions
 from grasptypes.predictors.answers import Answer, spelled
+from grasptypes.predictors.general_protocol import OBJECTS, OCCURS, SHARES, VIEWS_WITH_SIZE
 from grasptypes.predictors.members import members_by_object
 from grasptypes.predictors.problem import LearningProblem
 from grasptypes.predictors.protocol import try_splits
@@ -78,14 +79,28 @@ def unseen_types(
     predictions = try_splits(examples, members, problem.settings, key, problem.backbone).predictions
     logits = [f"logit_{kind}" for kind in TYPES]
     return {
-        (str(name), str(task)): _chosen(rows[logits].to_numpy())
+        (str(name), str(task)): _chosen(
+            softmax(rows[logits].to_numpy(), axis=-1).mean(axis=0),
+            expit(rows[logits].to_numpy()).mean(axis=0),
+        )
         for (name, task), rows in predictions.groupby(["object", "task"])
     }
 
 
-def _chosen(logits: np.ndarray) -> list[str]:
-    """The types that a predictor chooses, from logits (views, types)."""
-    shares, occurs = softmax(logits, axis=-1).mean(axis=0), expit(logits).mean(axis=0)
+def held_out_types(answers: pd.DataFrame) -> dict[tuple[str, str], list[str]]:
+    """Types that `general` chooses for objects held out with their relatives, by size and 12 views.
+
+    Args:
+        answers: of `general_protocol.ANSWER_SCHEMA`.
+    """
+    rows = answers[(answers["shown"] == OBJECTS) & (answers["model"] == VIEWS_WITH_SIZE)]
+    told = zip(rows[list(SHARES)].to_numpy(), rows[list(OCCURS)].to_numpy(), strict=True)
+    names = zip(rows["object"], rows["task"], strict=True)
+    return {name: _chosen(*answer) for name, answer in zip(names, told, strict=True)}
+
+
+def _chosen(shares: np.ndarray, occurs: np.ndarray) -> list[str]:
+    """The types that a predictor chooses, from shares and probabilities (types,)."""
     chosen = Answer.of("", TYPES, shares, occurs).chosen
     return [name for name in map(spelled, TYPES) if name in chosen]
 

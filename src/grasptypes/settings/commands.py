@@ -95,9 +95,9 @@ class PlanComparisonSettings(Settings):
     """Study of choosing types before planning."""
 
     sessions: int = setting("sessions per object and task", ge=1, le=1000)
-    seeds: int = setting("repetitions of each predictor", ge=1, le=100)
-    model: Literal["no_task", "task_vector", "task_in_image", "ignores_task"] = setting(
-        "a model of Table I, which chooses types of objects that it has not seen"
+    seeds: int = setting("repetitions of each predictor of Table I", ge=1, le=100)
+    model: Literal["general", "no_task", "task_vector", "task_in_image", "ignores_task"] = setting(
+        "`general` or a model of Table I, which chooses types of objects that it has not seen"
     )
 
 

@@ -16,6 +16,7 @@ from grasptypes.planning.plan_comparison import (
     PLANNING_SCHEMA,
     PREDICTED,
     Case,
+    held_out_types,
     outcome,
     savings,
     summary,
@@ -23,6 +24,7 @@ from grasptypes.planning.plan_comparison import (
     unseen_types,
 )
 from grasptypes.planning.sessions import PlanningContext
+from grasptypes.predictors.general_protocol import OCCURS, SHARES, VIEWS_WITH_SIZE
 from grasptypes.predictors.problem import LearningProblem
 
 TYPES = {PREDICTED: ["Precision"], LABELLED: ["Small Wrap", "Large Wrap"]}
@@ -122,6 +124,18 @@ def test_the_error_of_a_saving_is_that_of_a_mean_over_objects():
         plans.loc[(plans.object == name) & (plans.choice == choice), "tests"] = count
     # 4 and 8 tests a valid grasp, 3 with all types: 1 and 5, whose mean has the error 2.
     assert savings(plans).loc[PREDICTED, ["saving", "error"]].tolist() == pytest.approx([3, 2])
+
+
+def test_general_chooses_what_is_more_likely_than_not():
+    occurs = [0.9, 0.6, 0.4, 0.1, 0.1, 0.1]
+    row = {"object": "mug", "task": "use", **dict(zip(OCCURS, occurs, strict=True))}
+    row |= dict.fromkeys(SHARES, 1 / 6)
+    rows = [
+        row | {"shown": shown, "model": model}
+        for shown, model in (("objects", VIEWS_WITH_SIZE), ("kinds", VIEWS_WITH_SIZE))
+    ]
+    rows.append(row | {"shown": "objects", "model": "constant", "object": "cup"})
+    assert held_out_types(pd.DataFrame(rows)) == {("mug", "use"): ["Large Wrap", "Medium Wrap"]}
 
 
 def test_every_object_left_out_gets_types_for_every_task():
