@@ -27,7 +27,14 @@ ANSWERED = "!document.getElementById('answer').hidden && document.querySelectorA
 @pytest.fixture
 def address(tmp_path: Path) -> Iterator[str]:
     command = [sys.executable, "-m", "grasptypes", "demo", "--no-browser"]
-    process = subprocess.Popen(command, cwd=tmp_path, stdout=subprocess.PIPE, text=True)
+    process = subprocess.Popen(
+        command,
+        cwd=tmp_path,
+        stdout=subprocess.PIPE,
+        text=True,
+        # Shells start what they put in the background with SIGINT ignored.
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler),
+    )
     assert process.stdout is not None
     yield process.stdout.readline().split()[0]
     process.send_signal(signal.SIGINT)
