@@ -7,6 +7,7 @@ from grasptypes.jobs import job
 from grasptypes.labels.samples import read_samples
 from grasptypes.predictors.general_files import kind_families
 from grasptypes.predictors.general_protocol import ANSWER_SCHEMA
+from grasptypes.predictors.metrics import METRICS
 from grasptypes.reports.table3 import TABLE_SCHEMA
 from grasptypes.runs.general_runs import general_record
 from grasptypes.runs.publishing import version_tags
@@ -31,5 +32,6 @@ if __name__ == "__main__":
         )
         store = Store(TrackingSettings.model_validate(params.tracking))
         with store.opened():
+            store.offer_view(METRICS)
             store.upsert(record)
         write_json(snakemake.output.runs, {record.name: record.key})

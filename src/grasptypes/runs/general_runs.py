@@ -41,11 +41,12 @@ def general_record(
         families: of all kinds that were learned from.
         how: settings and seed that the answers came from.
         times_ms: start and end of the job, milliseconds since 1970.
-        tags: what is not part of the result.
+        tags: the hand, and what is not part of the result.
     """
     settings, seed = how
     flat = pd.json_normalize(settings.head.model_dump()).to_dict("records")[0]
-    stated = {"labels": SIMULATED, "model": GENERAL, "backbone": settings.backbone, **flat}
+    stated = {"hand": tags["hand"], "labels": SIMULATED, "model": GENERAL}
+    stated |= {"backbone": settings.backbone, **flat}
     params = {name: str(value) for name, value in stated.items()}
     content = json.dumps([params, table.to_dict("records")], sort_keys=True)
     key = _digest(content)

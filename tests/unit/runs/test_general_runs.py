@@ -47,7 +47,9 @@ def record():
     answers = ANSWER_SCHEMA.validate(pd.DataFrame(rows))
     table = tabulate(answers, {"simulated": samples}, [], 10)
     settings = PARAMS.general.changed(protocol=PARAMS.general.protocol.changed(folds=3))
-    return general_record(answers, samples, table, FAMILIES, (settings, 0), (1000, 2000), {})
+    return general_record(
+        answers, samples, table, FAMILIES, (settings, 0), (1000, 2000), {"hand": "barrett"}
+    )
 
 
 def test_the_store_has_a_parent_and_a_run_per_fold(record, tmp_path):
