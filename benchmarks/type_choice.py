@@ -22,16 +22,12 @@ from grasptypes.planning.plan_comparison import tests
 from grasptypes.planning.plan_contacts import grips_of
 from grasptypes.planning.planner import Planner
 from grasptypes.predictors.prediction import Predictor
+from grasptypes.predictors.shown import Hints, look
 from grasptypes.reports.kind_sizes import MASSES, YCB
 from grasptypes.runtime import pin_runtime
 
-OBJECTS = (
-    *("power_drill", "pitcher_base", "spatula", "bleach_cleanser", "hammer", "knife"),
-    *("phillips_screwdriver", "scissors", "mug", "skillet_lid", "spoon", "banana"),
-    *("mustard_bottle", "adjustable_wrench", "large_clamp", "bowl", "plate"),
-    *("padlock", "tomato_soup_can", "windex_bottle"),
-)
-SESSIONS = 4
+# Names the objects that are also inspected (`reports/ycb_parts.csv`).
+INSPECTED = Path("docs/results/ycb_parts.csv")
 ALL = GRASP_TYPES[:-1]
 
 
@@ -40,16 +36,19 @@ def rows_of(name: str, folder: Path, predictor: Predictor, jobs: int) -> list[di
     masses_kg = json.loads((folder / MASSES).read_text(encoding="utf-8"))
     mesh = folder / "ycb" / name / "textured.obj"
     thing = load_object(mesh, mass_kg=masses_kg.get(name), name=name)
+    shown, params = look(thing, Hints(), predictor.params), predictor.params
     rows: list[dict[str, object]] = []
-    for task in predictor.card.learned:
-        chosen = predictor.predict(thing, task).chosen
+    for task in params.tasks:
+        chosen = predictor.answer([shown], task)[0].chosen
         wanted = tuple(kind for kind in ALL if kind in chosen)
         same = set(grips_of(wanted)) == set(grips_of(ALL))
         for choice, types in (("chosen", wanted), ("all", ALL)):
             row: dict[str, object] = {"object": name, "task": task, "choice": choice}
             row |= {"types": "; ".join(types), "same": same}
             if not same:
-                plan = Planner(jobs=jobs).plan(thing, task, types, sessions=SESSIONS)
+                plan = Planner(jobs=jobs).plan(
+                    thing, task, types, sessions=params.plan.comparison.sessions
+                )
                 right = plan.ranking.valid & plan.ranking.grasp_type.isin(wanted)
                 row |= {"tests": tests(plan.attempts), "valid": int(right.sum())}
             rows.append(row)
@@ -83,7 +82,9 @@ if __name__ == "__main__":
     pin_runtime()
     predictor = Predictor.load()
     found = [
-        row for name in OBJECTS for row in rows_of(name, Path(os.environ[YCB]), predictor, jobs=2)
+        row
+        for name in pd.read_csv(INSPECTED)["object"]
+        for row in rows_of(name, Path(os.environ[YCB]), predictor, jobs=2)
     ]
     table = pd.DataFrame(found)
     write_text("build/type_choice.csv", table.to_csv(index=False))

@@ -3,10 +3,8 @@
 from __future__ import annotations
 
 import argparse
-import sys
-import webbrowser
 
-from grasptypes.commands.settings import add_folder, add_page
+from grasptypes.commands.settings import add_folder, add_page, serve
 
 SUMMARY = "Predict grasp types on a page in the browser: drop an image, choose a task."
 
@@ -29,10 +27,5 @@ def run(args: argparse.Namespace) -> str:
 
     predictor = Predictor.load(args.folder, model="general")
     with demo_server(predictor, args.port) as server:
-        address = f"http://127.0.0.1:{server.server_address[1]}/"
-        sys.stdout.write(f"{address} until Ctrl-C\n")
-        sys.stdout.flush()
-        if not args.no_browser:
-            webbrowser.open(address)
-        server.serve_forever()
+        serve(server, "", args)
     return ""

@@ -8,10 +8,14 @@ import sys
 import tempfile
 from collections.abc import Collection
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from grasptypes.errors import InputError
 from grasptypes.files import staging_name
 from grasptypes.settings.task_words import find_task
+
+if TYPE_CHECKING:  # other commands need no server
+    from http.server import HTTPServer
 
 
 def printable(name: str) -> str:
@@ -33,6 +37,22 @@ def add_page(parser: argparse.ArgumentParser) -> None:
     """Add the options of a page in the browser."""
     parser.add_argument("--port", type=_port, default=0, help="port of the page (default: any)")
     parser.add_argument("--no-browser", action="store_true", help="print the address only")
+
+
+def serve(server: HTTPServer, what: str, args: argparse.Namespace) -> None:
+    """Say where a page is, show it unless `--no-browser` is given, and serve it until Ctrl-C.
+
+    Args:
+        what: is served; before the address.
+    """
+    address = f"http://127.0.0.1:{server.server_address[1]}/"
+    sys.stdout.write(f"{what}{address} until Ctrl-C\n")
+    sys.stdout.flush()
+    if not args.no_browser:
+        import webbrowser
+
+        webbrowser.open(address)
+    server.serve_forever()
 
 
 def _port(text: str) -> int:

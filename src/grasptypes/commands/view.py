@@ -6,11 +6,15 @@ The page is served on 127.0.0.1 until Ctrl-C, or written to a file that opens wi
 from __future__ import annotations
 
 import argparse
-import sys
-import webbrowser
 from pathlib import Path
 
-from grasptypes.commands.settings import add_folder, add_page, check_target, printable
+from grasptypes.commands.settings import (
+    add_folder,
+    add_page,
+    check_target,
+    printable,
+    serve,
+)
 
 SUMMARY = "Show grasps in the browser: of an object, a table or a plan."
 
@@ -52,10 +56,5 @@ def run(args: argparse.Namespace) -> str:
         size_mb = len(text.encode()) / 1e6
         return f"{len(views.grasps)} grasps, {size_mb:.1f} MB: {printable(str(args.output))}\n"
     with page_server(text, args.port) as server:
-        address = f"http://127.0.0.1:{server.server_address[1]}/"
-        sys.stdout.write(f"{len(views.grasps)} grasps at {address} until Ctrl-C\n")
-        sys.stdout.flush()
-        if not args.no_browser:
-            webbrowser.open(address)
-        server.serve_forever()
+        serve(server, f"{len(views.grasps)} grasps at ", args)
     return ""

@@ -40,9 +40,11 @@ def rebuilt(
     faces = np.ascontiguousarray(mesh.faces, dtype=np.int64)
 
     def places(chosen: NDArray[np.bool_]) -> Array:
+        """Positions (n, 3) of the chosen nodes."""
         return np.ascontiguousarray(np.argwhere(chosen) * spacing + origin)
 
     def winding_at(chosen: NDArray[np.bool_]) -> Array:
+        """Winding numbers (n,) of the mesh at the chosen nodes, whichever way its faces face."""
         return np.asarray(np.abs(igl.fast_winding_number(vertices, faces, places(chosen))))
 
     known = _near_surface(mesh, origin, spacing, shape)
