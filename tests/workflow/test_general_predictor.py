@@ -32,5 +32,5 @@ def test_table_3_and_the_trained_head_come_from_kinds_and_objects(tmp_path: Path
     assert set(pd.read_csv(files["trials"])["setting"]) == {"kinds", "backbone"}
     assert len(pd.read_csv(files["limits"])) == 2 + table["labels"].nunique() - 1
     assert json.loads(files["runs"].read_text())
-    assert load_general(files["card"].parent).card.shapes == 4 + 2
+    assert load_general(files["card"].parent).card.shapes == 4 + 3
     assert "Nothing to be done" in repository.snakemake(*TARGETS.values())

@@ -16,6 +16,8 @@ from grasptypes.settings.general import MemorySettings
 
 # Coordinates of tasks are about 1, in single precision.
 SAME_TASK = 1e-4
+# Of the images of an object in any direction, as a share of that of all images.
+LEAST_VARIANCE = 1e-6
 
 
 @dataclass(frozen=True)
@@ -56,6 +58,8 @@ class Memory:
         round_ = np.eye(len(covariance)) * np.trace(covariance) / len(covariance)
         mixed = (1 - settings.shrinkage) * covariance + settings.shrinkage * round_
         variance, axes = np.linalg.eigh(mixed)
+        # With one image of each object, nothing is known of how images of an object differ.
+        variance = np.maximum(variance, LEAST_VARIANCE * seen.var(axis=0).sum())
         directions = leading.directions @ (axes / np.sqrt(variance))
         looks = Projection(leading.middle, directions)
         tasks, task = np.unique(inputs.tasks, axis=0, return_inverse=True)

@@ -75,3 +75,13 @@ def test_other_tasks_and_unlabelled_objects_are_left_to_the_head(memory):
     occurs, _ = memory.mixed(OCCURS, SHARES, asked((0, 5), facts_of(2), TASKS[0]))
     assert np.isfinite(occurs).all()
     assert occurs[0, 2] < 0.6
+
+
+def test_one_image_of_each_object_is_enough():
+    looks = np.array([[0.0, 0, 1, 0], [5, 0, 0, 0], [0, 5, 0, 1]])
+    facts = np.stack([facts_of(number) for number in range(3)])
+    inputs = Inputs(looks, np.zeros((3, 0)), facts, TASKS[[0, 0, 0]])
+    memory = Memory.of(inputs, Targets(np.eye(3), np.eye(3), np.ones(3), NAMES), SETTINGS)
+    chances = memory.chances(looks, facts)
+    assert np.isfinite(chances).all()
+    assert list(chances.argmax(axis=1)) == [0, 1, 2]
