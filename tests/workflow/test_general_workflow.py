@@ -29,7 +29,7 @@ def test_table_3_and_the_trained_head_come_from_kinds_and_objects(tmp_path: Path
     table = pd.read_csv(files["table"])
     assert {KINDS, KIND_TASKS, OBJECTS} <= set(table["shown"])
     assert set(table["model"]) == set(ROWS)
-    assert set(pd.read_csv(files["trials"])["setting"]) == {"kinds", "backbone"}
+    assert {"kinds", "backbone"} <= set(pd.read_csv(files["trials"])["setting"])
     assert len(pd.read_csv(files["limits"])) == 2 + table["labels"].nunique() - 1
     assert json.loads(files["runs"].read_text())
     assert load_general(files["card"].parent).card.shapes == 4 + 3
