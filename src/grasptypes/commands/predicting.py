@@ -167,7 +167,7 @@ def _named(looks: Iterable[tuple[Path, Shown]], one: bool) -> Iterator[tuple[str
     for file, shown in seen:
         count = len(shown.pictures)
         mean = (
-            f", mean of {count} {'views' if not is_photo(file) else 'images'}" if count > 1 else ""
+            f", from {count} {'views' if not is_photo(file) else 'images'}" if count > 1 else ""
         )
         yield printable(file.name) + mean, shown
 

@@ -210,7 +210,7 @@ class Planner:
     def _predicted(self, geometry: ObjectGeometry, task: str) -> GraspTypeRequest:
         """The types that the predictor chooses for the object; the likeliest if none."""
         assert self._predictor is not None  # `check_request` has loaded it
-        name = f"{geometry.name}, mean of {self.params.predict.views} views"
+        name = f"{geometry.name}, from {self.params.predict.views} views"
         answer = self._predictor.predict(geometry, task, name=name)
         described = self._predictor.describe([answer], task)
         types = tuple(name for name in GRASP_TYPES if name in answer.chosen)

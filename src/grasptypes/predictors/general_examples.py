@@ -82,6 +82,7 @@ def asked(pictures: Pictures, facts: pd.DataFrame, tasks: Sequence[Task], code: 
         pictures.classes,
         facts.reindex(pictures.objects)[list(FACTS)].to_numpy(dtype=float),
         np.stack([code(task) for task in tasks]),
+        np.ones(len(pictures.objects)),
     )
 
 

@@ -121,22 +121,38 @@ class TaskCode:
 
 @dataclass(frozen=True)
 class Inputs:
-    """Rows to learn from or to answer, one per image and task.
+    """Rows to learn from or to answer, one per image, or several images of one object, and task.
 
     Attributes:
         features: (N, F) of the backbone.
         classes: (N, C) log-probabilities of ImageNet's classes.
         facts: (N, 4) of `general_inputs.FACTS`; NaN where unknown.
         tasks: (N, K) coordinates of the task.
+        images: (N,) of how many images the features and classes are the mean.
     """
 
     features: np.ndarray
     classes: np.ndarray
     facts: np.ndarray
     tasks: np.ndarray
+    images: np.ndarray
 
     def __len__(self) -> int:
         return len(self.features)
+
+    def together(self, objects: np.ndarray) -> Inputs:
+        """One row per object, in the order of their names.
+
+        Args:
+            objects: (N,) of the rows, all for one task.
+        """
+        _, first, index = np.unique(objects, return_index=True, return_inverse=True)
+        return replace(
+            self.rows(first),
+            features=means(self.features, index),
+            classes=means(self.classes, index),
+            images=np.bincount(index, self.images),
+        )
 
     def rows(self, chosen: np.ndarray) -> Inputs:
         """Some of the rows."""
@@ -147,6 +163,13 @@ class Inputs:
         facts = self.facts.copy()
         facts[:, [FACTS.index(name) for name in names]] = np.nan
         return replace(self, facts=facts)
+
+
+def means(rows: np.ndarray, index: np.ndarray) -> np.ndarray:
+    """Mean of the rows (N, D) with each index from 0 to the largest."""
+    totals = np.zeros((index.max() + 1, rows.shape[1]))
+    np.add.at(totals, index, rows)
+    return np.asarray(totals / np.bincount(index)[:, None])
 
 
 @dataclass(frozen=True)

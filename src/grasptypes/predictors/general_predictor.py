@@ -98,20 +98,25 @@ class GeneralNetwork:
             pictures: (N, H, W, 3) uint8.
             facts: of `general_inputs.FACTS`, NaN where unknown; default: all unknown.
         """
-        return self.read(self.features(pictures), facts, task)
+        occurs, shares = self.head.answers(self._inputs(self.features(pictures), facts, task))
+        return shares, occurs
 
     def read(
         self, features: np.ndarray, facts: Sequence[float], task: str
     ) -> tuple[np.ndarray, np.ndarray]:
-        """The same for features (N, F) of images."""
+        """The same (1, types) for features (N, F) of images of one object, taken together."""
+        inputs = self._inputs(features, facts, task).together(np.zeros(len(features)))
+        occurs, shares = self.head.answers(inputs)
+        return shares, occurs
+
+    def _inputs(self, features: np.ndarray, facts: Sequence[float], task: str) -> Inputs:
+        """One row per image (N, F)."""
         count = len(features)
         known = np.array(facts or [np.nan] * len(FACTS), dtype=float)
         unused = self.head.classes.directions.shape[1] == 0
         classes = np.zeros((count, CLASSES)) if unused else class_scores(self.weights, features)
         tasks = np.tile(self.code(read_tasks()[task]), (count, 1))
-        inputs = Inputs(features, classes, np.tile(known, (count, 1)), tasks)
-        occurs, shares = self.head.answers(inputs)
-        return shares, occurs
+        return Inputs(features, classes, np.tile(known, (count, 1)), tasks, np.ones(count))
 
     def logits(self, pictures: np.ndarray, task: str, facts: Sequence[float] = ()) -> np.ndarray:
         """Logits (N, types) of whether each type occurs, see :meth:`answers`."""

@@ -53,7 +53,7 @@ ANSWER_SCHEMA = pa.DataFrameSchema(
         "labels": pa.Column(str, description="learned from"),
         "object": pa.Column(str),
         "task": pa.Column(str),
-        "view": pa.Column(int, pa.Check.ge(ALL_VIEWS), description="-1: mean of all views"),
+        "view": pa.Column(int, pa.Check.ge(ALL_VIEWS), description="-1: all views together"),
         **{name: pa.Column(float, _SHARE) for name in (*OCCURS, *DIRECTION, *SHARES)},
     },
     strict=True,
@@ -106,14 +106,18 @@ def answers(
         inputs = asked(shown, facts, [task] * len(shown.objects), heads.code)
         where = pd.DataFrame({"object": shown.objects, "task": name, "view": numbers})
         constant = np.tile(heads.constant[:, None], (1, len(inputs), 1))
+        together = inputs.together(shown.objects)
+        objects = where.drop_duplicates("object").sort_values("object").assign(view=ALL_VIEWS)
         told = {
-            CONSTANT: (constant[0], constant[1]),
-            IMAGE: heads.whole.answers(inputs.without(FACTS)),
+            CONSTANT: (where, (constant[0], constant[1])),
+            IMAGE: (where, heads.whole.answers(inputs.without(FACTS))),
+            VIEWS: (objects, heads.whole.answers(together.without(FACTS))),
         }
         if np.isfinite(inputs.facts).any():
-            told[SIZE_ONLY] = heads.size_only.answers(inputs)
-            told[WITH_SIZE] = heads.whole.answers(inputs)
-        parts += [answer_table(model, where, *told[model]) for model in told]
+            told[SIZE_ONLY] = where, heads.size_only.answers(inputs)
+            told[WITH_SIZE] = where, heads.whole.answers(inputs)
+            told[VIEWS_WITH_SIZE] = objects, heads.whole.answers(together)
+        parts += [answer_table(model, rows, *answer) for model, (rows, answer) in told.items()]
     return pd.concat(parts, ignore_index=True)
 
 
@@ -138,25 +142,14 @@ def answer_table(
 
 
 def finished(table: pd.DataFrame, shown: str, labels: str) -> pd.DataFrame:
-    """Answers with those from all views of an object together among them.
+    """Answers as a table of :data:`ANSWER_SCHEMA`.
 
     Args:
         table: of :func:`answers`.
         shown: name of the column.
         labels: source of the labels learned from.
-
-    Returns:
-        a table of :data:`ANSWER_SCHEMA`.
     """
-    parts = [table]
-    for model, together in ((IMAGE, VIEWS), (WITH_SIZE, VIEWS_WITH_SIZE)):
-        views = table[table["model"] == model].drop(columns=["model", "view"])
-        if views.empty:
-            continue
-        mean = views.groupby(["object", "task"], as_index=False).mean()
-        parts.append(mean.assign(model=together, view=ALL_VIEWS))
-    whole = pd.concat(parts, ignore_index=True).assign(shown=shown, labels=labels)
-    return whole[list(ANSWER_SCHEMA.columns)]
+    return table.assign(shown=shown, labels=labels)[list(ANSWER_SCHEMA.columns)]
 
 
 def hold_out_kinds(known: Known, settings: HeadSettings, folds: int, seed: int) -> pd.DataFrame:

@@ -144,11 +144,5 @@ def answer_as_paper(study: Study, settings: PredictorSettings, seed: int) -> pd.
     tables = []
     for source, samples in study.samples.items():
         told = task_vector_answers(renders, samples, asked, settings, seed)
-        tables += [_named(table, name, source) for name, table in zip(shown, told, strict=True)]
+        tables += [finished(table, name, source) for name, table in zip(shown, told, strict=True)]
     return pd.concat(tables, ignore_index=True)
-
-
-def _named(table: pd.DataFrame, shown: str, source: str) -> pd.DataFrame:
-    """A baseline's table with its column and label source; it has no answer from all views."""
-    whole = finished(table, shown, source)
-    return whole[whole["model"].isin(set(table["model"]))]

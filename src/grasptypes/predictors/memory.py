@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.special import log_softmax, softmax
 
-from grasptypes.predictors.general_inputs import Inputs, Projection, Targets, spread_of
+from grasptypes.predictors.general_inputs import Inputs, Projection, Targets, means, spread_of
 from grasptypes.settings.general import MemorySettings
 
 # Coordinates of tasks are about 1, in single precision.
@@ -53,7 +53,7 @@ class Memory:
         names, index = np.unique(targets.objects, return_inverse=True)
         leading = Projection.of(inputs.features, settings.directions, 0.0)
         seen = leading(inputs.features)
-        within = seen - _means(seen, index)[index]
+        within = seen - means(seen, index)[index]
         covariance = within.T @ within / max(len(seen) - len(names), 1)
         round_ = np.eye(len(covariance)) * np.trace(covariance) / len(covariance)
         mixed = (1 - settings.shrinkage) * covariance + settings.shrinkage * round_
@@ -70,26 +70,31 @@ class Memory:
             settings,
             names,
             looks,
-            _means(looks(inputs.features), index),
-            _means(inputs.facts, index),
+            means(looks(inputs.features), index),
+            means(inputs.facts, index),
             tasks,
             *known,
         )
 
-    def chances(self, features: np.ndarray, facts: np.ndarray) -> np.ndarray:
+    def chances(
+        self, features: np.ndarray, facts: np.ndarray, images: np.ndarray | float = 1
+    ) -> np.ndarray:
         """How likely each known object is shown, and in the last column something else (N, C + 1).
 
         The image tells which of the known objects it may be; the size tells besides how
-        likely it is any of them.
+        likely it is any of them. Several images tell more than one, but not as much as if nothing
+        that they share could mislead.
 
         Args:
             features: (N, F) of the backbone.
             facts: (N, 4); NaN where unknown.
+            images: (N,) of how many images the features are the mean.
         """
         settings, seen = self.settings, self.looks(features)
         # Squared distances, without what is the same for all objects.
         far = (self.places**2).sum(axis=1) - 2 * seen @ self.places.T
-        alike = log_softmax(-far / (2 * settings.temperature), axis=1)
+        weight = np.reshape(images, (-1, 1)) ** settings.images_power
+        alike = log_softmax(-far * weight / (2 * settings.temperature), axis=1)
         middle, spread = self.facts.mean(axis=0), self.facts.std(axis=0)
         own = spread_of(settings.size_spread, settings.mass_spread)
         known = alike + _log_density(facts[:, None] - self.facts, own)
@@ -101,7 +106,7 @@ class Memory:
         self, occurs: np.ndarray, shares: np.ndarray, inputs: Inputs
     ) -> tuple[np.ndarray, np.ndarray]:
         """Answers (N, types) mixed with those from memory, for tasks that were learned."""
-        chances = self.chances(inputs.features, inputs.facts)
+        chances = self.chances(inputs.features, inputs.facts, inputs.images)
         found = occurs.copy(), shares.copy()
         for number, task in enumerate(self.tasks):
             rows = (np.abs(inputs.tasks - task) < SAME_TASK).all(axis=1)
@@ -111,13 +116,6 @@ class Memory:
             for mix, memory in zip(found, (self.occurs, self.shares), strict=True):
                 mix[rows] = weights[:, :-1] @ memory[number, known] + weights[:, -1:] * mix[rows]
         return found[0], found[1]
-
-
-def _means(rows: np.ndarray, index: np.ndarray) -> np.ndarray:
-    """Mean of the rows (N, D) with each index."""
-    totals = np.zeros((index.max() + 1, rows.shape[1]))
-    np.add.at(totals, index, rows)
-    return np.asarray(totals / np.bincount(index)[:, None])
 
 
 def _log_density(off: np.ndarray, spread: np.ndarray) -> np.ndarray:

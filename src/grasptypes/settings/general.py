@@ -104,6 +104,7 @@ class MemorySettings(Settings):
     directions: int = setting("principal directions of the features; 0: no memory", ge=0, le=4096)
     shrinkage: Share = setting("of the covariance of an object's images towards a round one")
     temperature: float = setting("by which the logits of the objects are divided", gt=0, le=100)
+    images_power: Share = setting("n images of one object count as n to this power")
     size_spread: float = setting("by which the logarithm of an extent may be off", gt=0, le=10)
     mass_spread: float = setting("the same of the mass", gt=0, le=10)
     known: float = setting("share of the objects shown that are like one learned from", gt=0, lt=1)

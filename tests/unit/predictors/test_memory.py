@@ -1,5 +1,7 @@
 """What was learned is recognised and answered from memory; everything else is left to the head."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from tests.unit.settings import PARAMS
@@ -36,6 +38,7 @@ def memory():
         np.zeros((len(looks), 0)),
         np.stack([facts_of(number) for number in object_]),
         TASKS[task],
+        np.ones(len(looks)),
     )
     types = np.eye(3)[object_]
     return Memory.of(inputs, Targets(types, types, np.ones(len(looks)), NAMES[object_]), SETTINGS)
@@ -43,7 +46,7 @@ def memory():
 
 def asked(look, facts, task):
     features = np.array([[*look, 0, 0, 0, 0]], dtype=float)
-    return Inputs(features, np.zeros((1, 0)), np.array([facts]), np.array([task]))
+    return Inputs(features, np.zeros((1, 0)), np.array([facts]), np.array([task]), np.ones(1))
 
 
 def test_an_image_tells_which_object_it_may_be_and_the_size_whether_it_is_one(memory):
@@ -59,6 +62,29 @@ def test_an_image_tells_which_object_it_may_be_and_the_size_whether_it_is_one(me
     only_longest = np.array([facts_of(1)[0], *nothing[1:]])
     partly = memory.chances(np.array([[5.0, 0, 0, 0, 0, 0]]), only_longest[None])[0]
     assert right[-1] < partly[-1] < unknown[-1]
+
+
+def test_several_images_tell_more_than_one_and_less_than_independent_ones(memory):
+    looks = np.array([[1.5, 1.0, 0, 0, 0, 0]])
+    nothing = np.full((1, 4), np.nan)
+    one, four = (memory.chances(looks, nothing, np.array([count]))[0] for count in (1, 4))
+    alone = memory.settings.changed(images_power=1.0)
+    independent = replace(memory, settings=alone).chances(looks, nothing, np.array([4]))[0]
+    assert one[:3].max() < four[:3].max() < independent[:3].max()
+    assert one[-1] == pytest.approx(four[-1])
+
+
+def test_images_of_an_object_are_asked_about_together():
+    rows = Inputs(
+        np.array([[1.0], [5.0], [3.0]]),
+        np.zeros((3, 0)),
+        np.stack([facts_of(2), facts_of(1), facts_of(2)]),
+        TASKS[[0, 0, 0]],
+        np.ones(3),
+    ).together(np.array(["b", "a", "b"]))
+    np.testing.assert_array_equal(rows.features, [[5], [2]])
+    np.testing.assert_array_equal(rows.images, [1, 2])
+    np.testing.assert_array_equal(rows.facts, [facts_of(1), facts_of(2)])
 
 
 def test_what_is_recognised_is_answered_from_memory(memory):
@@ -80,7 +106,7 @@ def test_other_tasks_and_unlabelled_objects_are_left_to_the_head(memory):
 def test_one_image_of_each_object_is_enough():
     looks = np.array([[0.0, 0, 1, 0], [5, 0, 0, 0], [0, 5, 0, 1]])
     facts = np.stack([facts_of(number) for number in range(3)])
-    inputs = Inputs(looks, np.zeros((3, 0)), facts, TASKS[[0, 0, 0]])
+    inputs = Inputs(looks, np.zeros((3, 0)), facts, TASKS[[0, 0, 0]], np.ones(3))
     memory = Memory.of(inputs, Targets(np.eye(3), np.eye(3), np.ones(3), NAMES), SETTINGS)
     chances = memory.chances(looks, facts)
     assert np.isfinite(chances).all()

@@ -94,7 +94,7 @@ def test_a_mesh_is_seen_from_several_sides(predict, tmp_path):
     trimesh.creation.box((0.06, 0.08, 0.2)).export(tmp_path / "box.stl")
     out, _, _ = predict("box.stl", "--task", "use", "--json")
     (answer,) = json.loads(out)["answers"]
-    assert answer["name"] == "box.stl, mean of 3 views"
+    assert answer["name"] == "box.stl, from 3 views"
     assert sum(each["share"] for each in answer["types"]) == pytest.approx(1, abs=1e-5)
     assert answer["size_m"] == pytest.approx([0.2, 0.08, 0.06])
     (tmp_path / "other.stl").write_bytes((tmp_path / "box.stl").read_bytes())
