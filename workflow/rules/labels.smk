@@ -24,6 +24,7 @@ rule evaluate_labels:
     params:
         hand=hand_parameter(config["published"]["hand"]),
         settings=settings("grasp_types"),
+        relatives=config["hold_fit"]["relatives"],
         data=lambda wildcards: measuring_hashes(),
         scale=config["replay"]["object_scale"],
         code=script_hash("evaluate_labels"),

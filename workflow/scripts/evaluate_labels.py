@@ -1,6 +1,7 @@
 """Compare the rule's labels with the human labels of the published poses."""
 
 import os
+from collections.abc import Collection, Iterable
 from pathlib import Path
 
 import numpy as np
@@ -16,6 +17,7 @@ from grasptypes.labels.agreement import (
     confusion,
     cross_validate,
     describe_fit,
+    groups_of,
 )
 from grasptypes.labels.grasp_type import TYPES, classify, limits
 from grasptypes.labels.label_pictures import draw_confusion, save_figure
@@ -40,13 +42,19 @@ def evaluate_labels(
     return line
 
 
-def validate_thresholds(grasps: LabelledGrasps, settings: GraspTypeSettings, table: Path) -> str:
+def validate_thresholds(
+    grasps: LabelledGrasps,
+    settings: GraspTypeSettings,
+    relatives: Iterable[Collection[str]],
+    table: Path,
+) -> str:
     """Cross-validate over the objects in `fitted_on`; returns a line for the log."""
     known = grasps.select(np.isin(grasps.objects, settings.fitted_on))
-    scores = cross_validate(known, settings.softness)
+    scores = cross_validate(known, settings.softness, relatives)
     write_table(scores, table, THRESHOLD_SCHEMA)
     total = scores.iloc[-1]
-    return f"leaving objects out: accuracy {total.accuracy:.3f}, kappa {total.kappa:.3f}"
+    score = f"accuracy {total.accuracy:.3f}, kappa {total.kappa:.3f}"
+    return f"leaving objects out with their relatives: {score}"
 
 
 if __name__ == "__main__":
@@ -59,8 +67,10 @@ if __name__ == "__main__":
             raise InputError("reports/label_agreement.csv", "", f"cannot be made: {lacking}")
         grasps = labelled_grasps(os.environ, hand, OWN_OBJECTS, snakemake.params.scale, settings)
         fitted = {*grasps.objects} & {*settings.fitted_on}
-        if len(fitted) < 2:
+        relatives = snakemake.params.relatives
+        if len({*groups_of(fitted, relatives).values()}) < 2:
             message = f"has grasps of {len(fitted)} of the objects that grasp_types.fitted_on names"
-            raise InputError(published_path(os.environ), "", f"{message}; 2 are needed")
+            needed = "2 that are no relatives are needed"
+            raise InputError(published_path(os.environ), "", f"{message}; {needed}")
         log.info(evaluate_labels(grasps, settings, Path(out.table), Path(out.figure)))
-        log.info(validate_thresholds(grasps, settings, Path(out.validation)))
+        log.info(validate_thresholds(grasps, settings, relatives, Path(out.validation)))

@@ -166,9 +166,7 @@ def _named(looks: Iterable[tuple[Path, Shown]], one: bool) -> Iterator[tuple[str
         seen = [(Path(name), together([shown for _, shown in parts]))]
     for file, shown in seen:
         count = len(shown.pictures)
-        mean = (
-            f", from {count} {'views' if not is_photo(file) else 'images'}" if count > 1 else ""
-        )
+        mean = f", from {count} {'views' if not is_photo(file) else 'images'}" if count > 1 else ""
         yield printable(file.name) + mean, shown
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from typing import NamedTuple
 
 import numpy as np
@@ -162,22 +162,40 @@ def fit_thresholds(grasps: LabelledGrasps, softness: Softness) -> Array:
     return np.asarray(np.exp(minimize(loss, start, method="Nelder-Mead", options=options).x))
 
 
-def cross_validate(grasps: LabelledGrasps, softness: Softness) -> pd.DataFrame:
-    """Label each object with thresholds fitted on all others.
+def groups_of(
+    objects: Iterable[str], relatives: Iterable[Collection[str]]
+) -> dict[str, frozenset[str]]:
+    """Each object with its relatives, of which it may have none."""
+    related = {name: frozenset(group) for group in relatives for name in group}
+    return {name: related.get(name, frozenset([name])) for name in objects}
+
+
+def cross_validate(
+    grasps: LabelledGrasps, softness: Softness, relatives: Iterable[Collection[str]] = ()
+) -> pd.DataFrame:
+    """Label each object with thresholds fitted on all that are no relatives of it.
+
+    Args:
+        relatives: groups of objects that are held alike; others have none.
 
     Returns:
         A table of `THRESHOLD_SCHEMA`: an object's row has the thresholds it was labelled with,
         the last row those fitted on all objects (its accuracy is that of all rows above together).
     """
     predicted = np.empty(len(grasps.labels), dtype=np.int64)
-    names = np.unique(grasps.objects)
-    fitted = []
-    for name in names:
-        own = grasps.objects == name
-        fitted.append(fit_thresholds(grasps.select(~own), softness))
-        predicted[own] = classify(grasps.measures.select(own), fitted[-1])
-    fitted.append(fit_thresholds(grasps, softness))
-    words = [f"{len(names) - 1} other objects"] * len(predicted)
+    names = [str(name) for name in np.unique(grasps.objects)]
+    groups = groups_of(names, relatives)
+    fits = {
+        group: fit_thresholds(grasps.select(~np.isin(grasps.objects, [*group])), softness)
+        for group in dict.fromkeys(groups[name] for name in names)
+    }
+    for group, thresholds in fits.items():
+        own = np.isin(grasps.objects, [*group])
+        predicted[own] = classify(grasps.measures.select(own), thresholds)
+    fitted = [*(fits[groups[name]] for name in names), fit_thresholds(grasps, softness)]
+    words = [
+        f"{len(names) - len(groups[str(name)] & {*names})} other objects" for name in grasps.objects
+    ]
     table = agreement(grasps, predicted, words)
     thresholds = pd.DataFrame(fitted, columns=list(Thresholds.model_fields)).round(5)
     return pd.concat([table, thresholds], axis=1)

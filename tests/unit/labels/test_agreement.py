@@ -22,7 +22,7 @@ from grasptypes.labels.agreement import (
 )
 from grasptypes.labels.grasp_type import TYPES, Measures, classify, limits
 from grasptypes.labels.published_data import labelled_grasps
-from grasptypes.settings.grasp_types import Softness
+from grasptypes.settings.grasp_types import Softness, Thresholds
 from grasptypes.settings.params import read_params
 
 ROOT = Path(__file__).parents[3]
@@ -81,6 +81,16 @@ def test_cross_validation_labels_each_object_without_its_own_poses():
     assert scores["pan"] < 0.1
     assert scores["mug"] > 0.85
     assert (table.fitted_on == "2 other objects").all()
+
+
+def test_cross_validation_leaves_relatives_out_together():
+    grasps = made_up(300)
+    table = cross_validate(grasps, SOFTNESS, [("mug", "pan", "vase")]).set_index("object")
+    other = ({*grasps.objects} - {"mug", "pan"}).pop()
+    assert table.fitted_on["mug"] == table.fitted_on["pan"] == "1 other objects"
+    assert table.fitted_on[other] == "2 other objects"
+    thresholds = table[list(Thresholds.model_fields)]
+    pd.testing.assert_series_equal(thresholds.loc["mug"], thresholds.loc["pan"], check_names=False)
 
 
 def test_judge_leaves_out_what_has_no_type_configuration_or_object():
