@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from base64 import b64decode
 from collections.abc import Mapping
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any
 
 import mlflow
@@ -17,13 +19,16 @@ from grasptypes.predictors.answers import spelled
 from grasptypes.predictors.general_predictor import CARD, GeneralCard, load_general
 from grasptypes.predictors.prediction import Predictor
 from grasptypes.predictors.predictor_files import ModelCard, load_predictor
-from grasptypes.predictors.shown import Hints, look
+from grasptypes.predictors.shown import Hints, Shown, look
 from grasptypes.predictors.weights import weights_file
-from grasptypes.renders.photos import padded
+from grasptypes.renders.photos import Box, padded
 from grasptypes.settings.params import read_params
 
 # `predict.photos.min_px` of params.yaml, which is not stored with the models of Table I.
 MIN_PX = 32
+# Files that a request to `general` contains as text.
+FILES = ("mask", "depth", "intrinsics")
+NPY_START = b"\x93NUMPY"
 
 
 class GraspTypePredictor(PythonModel):
@@ -55,8 +60,10 @@ class GraspTypePredictor(PythonModel):
 
         Args:
             model_input: ``image`` (N, H, W, 3) uint8 and ``task`` (N,) names; of `general` also
-                ``size_m`` (N, 3), longest first, ``mass_kg`` (N,), 0 where unknown, and ``box``
-                (N, 4), the part that shows the object, 0 for the whole image.
+                ``size_m`` (N, 3), longest first, ``mass_kg`` (N,), 0 where unknown, ``box``
+                (N, 4), the part that shows the object, 0 for the whole image, ``mask`` (N,), an
+                image file, and ``depth`` (N,), a PNG or NPY file, in base64, and ``intrinsics``
+                (N,), JSON; each empty where there is none.
 
         Returns:
             ``probability`` and ``share``, (N, types) float32 each; of `general` also
@@ -109,15 +116,17 @@ def _general_answers(
     """The answers of `general`, with the types in the order of its card."""
     sizes, masses = np.asarray(told["size_m"], float), np.asarray(told["mass_kg"], float)
     boxes = np.asarray(told["box"], int)
-    if not len(sizes) == len(masses) == len(boxes) == len(pictures):
-        raise _refusal(f"{len(pictures)} images need as many size_m, mass_kg and box")
+    files = [np.asarray(told[name]).astype(str).reshape(-1) for name in FILES]
+    if {len(pictures)} != set(map(len, (sizes, masses, boxes, *files))):
+        names = ", ".join(["size_m", "mass_kg", "box", *FILES])
+        raise _refusal(f"{len(pictures)} images need as many of each: {names}")
     answers = []
-    for picture, task, size, mass, box in zip(pictures, tasks, sizes, masses, boxes, strict=True):
-        left, top, right, bottom = box.tolist()
-        shown = look(
-            picture, Hints(box=(left, top, right, bottom) if box.any() else None), predictor.params
-        )
-        known = size[size != 0].tolist()
+    for number, (picture, task, mass) in enumerate(zip(pictures, tasks, masses, strict=True)):
+        left, top, right, bottom = boxes[number].tolist()
+        box = (left, top, right, bottom) if boxes[number].any() else None
+        texts = {name: str(texts[number]) for name, texts in zip(FILES, files, strict=True)}
+        shown = _seen(picture, box, texts, predictor)
+        known = sizes[number][sizes[number] != 0].tolist()
         answers += predictor.answer([shown], task, size_m=known, mass_kg=float(mass) or None)
     types = [spelled(name) for name in predictor.card.types]
     rows = [
@@ -131,6 +140,33 @@ def _general_answers(
         "strangeness": np.array([one.strangeness or 0 for one in answers], dtype=np.float32),
         "neighbours": np.array([[near.name for near in one.neighbours] for one in answers]),
     }
+
+
+def _seen(
+    picture: np.ndarray, box: Box | None, texts: Mapping[str, str], predictor: Predictor
+) -> Shown:
+    """An image with the box, and with the files that a request contains.
+
+    Raises:
+        MlflowException: a text is not base64.
+        InputError: a file cannot be used.
+    """
+    with TemporaryDirectory() as folder:
+        files = {}
+        for name, text in texts.items():
+            if not text:
+                continue
+            try:
+                content = text.encode() if name == "intrinsics" else b64decode(text, validate=True)
+            except ValueError as error:
+                raise _refusal(f"{name}: is not base64 ({error})") from error
+            ending = ".npy" if content.startswith(NPY_START) else ""
+            files[name] = Path(folder, name + ending)
+            files[name].write_bytes(content)
+        try:
+            return look(picture, Hints(box=box, **files), predictor.params)
+        except InputError as error:
+            raise _refusal(str(error).replace(f"{folder}/", "")) from error
 
 
 def _refusal(message: str) -> MlflowException:

@@ -50,13 +50,14 @@ MIN_PX = 32  # sides of the example
 # Images of any size, and a task for each.
 IMAGES = TensorSpec(np.dtype(np.uint8), (-1, -1, -1, 3), "image")
 PREDICTOR_INPUTS = Schema([IMAGES, TensorSpec(np.dtype(str), (-1,), "task")])
-# What only the predictor for unseen objects takes, 0 where unknown, and gives.
+# What only the predictor for unseen objects takes: 0 or empty where unknown.
 GENERAL_INPUTS = Schema(
     [
         *PREDICTOR_INPUTS.inputs,
         TensorSpec(np.dtype(np.float64), (-1, 3), "size_m"),
         TensorSpec(np.dtype(np.float64), (-1,), "mass_kg"),
         TensorSpec(np.dtype(np.int64), (-1, 4), "box"),
+        *(TensorSpec(np.dtype(str), (-1,), name) for name in ("mask", "depth", "intrinsics")),
     ]
 )
 GENERAL_PACKAGES = (
@@ -254,6 +255,7 @@ def save_general(folder: str | Path, params: Params) -> None:
         "size_m": np.array([[0.12, 0.0, 0.0]]),
         "mass_kg": np.zeros(1),
         "box": np.zeros((1, 4), dtype=np.int64),
+        **{name: np.array([""]) for name in ("mask", "depth", "intrinsics")},
     }
     with tempfile.TemporaryDirectory() as place:
         settings = Path(place) / "params.yaml"
