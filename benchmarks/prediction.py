@@ -10,6 +10,7 @@ import os
 import sys
 import time
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -24,13 +25,20 @@ from grasptypes.labels.samples import LABELS, read_samples
 from grasptypes.predictors.explanation import blurred, explain, small
 from grasptypes.predictors.features import read_pictures
 from grasptypes.predictors.general_examples import family_folds
-from grasptypes.predictors.general_files import kind_families, read_pictures_of
+from grasptypes.predictors.general_files import (
+    kind_families,
+    read_known_kinds,
+    read_pictures_of,
+)
+from grasptypes.predictors.general_inputs import TaskCode
 from grasptypes.predictors.general_predictor import GeneralNetwork
 from grasptypes.predictors.general_protocol import KINDS, OCCURS, WITH_SIZE
-from grasptypes.predictors.known_kinds import learn_kinds
+from grasptypes.predictors.known_kinds import nearest
+from grasptypes.predictors.memory import Memory
 from grasptypes.predictors.photographs import PHOTOGRAPHS
 from grasptypes.predictors.prediction import Predictor
 from grasptypes.predictors.shown import Shown
+from grasptypes.predictors.strangeness import Strangeness
 from grasptypes.renders.depth_images import Intrinsics, longest_extent
 from grasptypes.renders.foreground import objects_in
 from grasptypes.renders.photos import Box, read_whole
@@ -148,34 +156,35 @@ def strange_is_found(params: Params) -> Iterator[str]:
     for out in family_folds(families, OUTER, params.seed + 1):
         held = np.array([bool(families[name] & out) for name in kinds.objects])
         kept = {name: own for name, own in families.items() if not own & out}
-        known = learn_kinds(kinds.rows(~held), kept, params.predict.known_kinds, "", params.seed)
-        alarms += (known.strangeness(kinds.features[held]) > 1).tolist()
+        known = Strangeness.of(kinds.rows(~held), kept, params.general.strangeness, params.seed)
+        alarms += (known(kinds.features[held]) > 1).tolist()
     yield f"kinds held out: {np.mean(alarms):.3f} of {len(alarms)}"
     predictor = Predictor.load(params=params, model="general")
     network = predictor.model
     assert isinstance(network, GeneralNetwork)
-    assert network.known
     for name in ("renders", "scans", "photographs"):
         path = Path(f"data/general/features/{name}.npz")
         if path.is_file():
-            shown = network.known.strangeness(read_pictures_of(path).features)
+            shown = network.strangeness(read_pictures_of(path).features)
             yield f"{name}: {(shown > 1).mean():.3f} of {len(shown)}"
     for name, pictures in groups().items():
-        shown = network.known.strangeness(network.features(pictures))
+        shown = network.strangeness(network.features(pictures))
         yield f"{name}: {(shown > 1).mean():.3f} of {len(shown)}"
 
 
 def kinds_are_found(params: Params) -> Iterator[str]:
     """How often a kind is among the most similar ones, for views of it that were left out."""
-    kinds = read_pictures_of("data/general/features/kinds.npz")
-    families = kind_families(sorted(set(kinds.objects.tolist())))
-    settings = params.predict.known_kinds.changed(directions=1, folds=2)
+    properties = Path("data/kinds/objects").glob("*/properties.json")
+    known = read_known_kinds(
+        "data/general/features/kinds.npz", "data/kinds/samples.csv", properties, params.kinds.tasks
+    )
+    kinds, code, first, among = known.pictures, TaskCode.of(known.tasks), [], []
     views = pd.Series(kinds.objects).groupby(kinds.objects).cumcount().to_numpy()
-    first, among = [], []
     for view in range(views.max() + 1):
-        known = learn_kinds(kinds.rows(views != view), families, settings, "", params.seed)
+        others = replace(known, pictures=kinds.rows(views != view))
+        memory = Memory.of(*others.examples(code), params.general.head.memory)
         for row in np.flatnonzero(views == view):
-            near = known.nearest(kinds.features[[row]], settings.shown)
+            near = nearest(memory, kinds.features[[row]], params.predict.known_kinds.shown)
             names = [one.name for one in near]
             own = shape_of(kinds.objects[row])[0]
             first.append(names[0] == own)

@@ -166,6 +166,7 @@ rule train_general:
         settings=settings("general", "trials"),
         backbone=config["backbone"],
         tasks=TASKS,
+        seed=config["seed"],
         code=script_hash("train_general"),
     message:
         "Training the predictor for unseen objects"

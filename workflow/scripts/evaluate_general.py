@@ -104,7 +104,7 @@ if __name__ == "__main__":
         by_shape = settings.head.changed(
             pictures=settings.protocol.shape_directions,
             classes=0,
-            memory=settings.head.memory.changed(directions=0),
+            memory=settings.head.memory.changed(last_features=0),
         )
         baseline = PredictorSettings.check(params.predictors)
         answers = [

@@ -11,7 +11,8 @@ from grasptypes.labels.samples import TYPES
 from grasptypes.predictors.general_backbone import weights_of
 from grasptypes.predictors.general_files import read_known_kinds, read_known_objects
 from grasptypes.predictors.general_predictor import GeneralCard, write_general
-from grasptypes.predictors.general_study import final_head
+from grasptypes.predictors.general_study import final_head, together
+from grasptypes.predictors.strangeness import Strangeness
 from grasptypes.settings.general import GeneralSettings
 from grasptypes.settings.predictors import BackboneSettings
 
@@ -21,6 +22,7 @@ def train_general(
     targets: tuple[str | Path, str | Path],
     settings: tuple[GeneralSettings, BackboneSettings],
     tasks: Sequence[str],
+    seed: int,
 ) -> None:
     """Write the head and its card."""
     general, backbone = settings
@@ -30,6 +32,8 @@ def train_general(
         inputs.objects, inputs.simulated, inputs.properties, families, kinds
     )
     head, code = final_head(kinds, objects, general.head)
+    known = together(kinds, objects)
+    strangeness = Strangeness.of(known.pictures, known.families, general.strangeness, seed)
     weights = weights_of(general.backbone, backbone.timeout_s)
     card = GeneralCard(
         types=TYPES,
@@ -40,7 +44,7 @@ def train_general(
         weights=weights.name,
         input_px=backbone.input_px,
     )
-    write_general(head, code, card, *targets)
+    write_general(head, code, strangeness, card, targets)
 
 
 if __name__ == "__main__":
@@ -49,4 +53,4 @@ if __name__ == "__main__":
         params = snakemake.params
         settings = GeneralSettings.check(params.settings), BackboneSettings.check(params.backbone)
         targets = snakemake.output.head, snakemake.output.card
-        train_general(snakemake.input, targets, settings, params.tasks)
+        train_general(snakemake.input, targets, settings, params.tasks, params.seed)

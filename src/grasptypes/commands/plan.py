@@ -86,7 +86,13 @@ def run(args: argparse.Namespace) -> str:
         settings=planner.params.objects,
     )
     plan = planner.plan(
-        geometry, task, args.type, contact_map=scan, roles=roles, sessions=args.sessions
+        geometry,
+        task,
+        args.type,
+        contact_map=scan,
+        roles=roles,
+        sessions=args.sessions,
+        mass_known=args.mass_kg is not None,
     )
     plan.write(output)
     summary = summarise(plan)

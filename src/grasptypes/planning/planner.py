@@ -126,6 +126,7 @@ class Planner:
         contact_map: MeasuredMap | None = None,
         roles: RoleTable | None = None,
         sessions: int | None = None,
+        mass_known: bool = False,
     ) -> Plan:
         """Plan ranked grasps of an object for a task.
 
@@ -137,6 +138,7 @@ class Planner:
             roles: roles of parts by name or colour; default: those in the object's file, or those
                 that its shape tells.
             sessions: number of ways of holding to search, one grasp each.
+            mass_known: whether the predictor may use the object's mass, as it was not guessed.
 
         Raises:
             InputError: an unknown task or type, a mass that the hand cannot lift, an unusable
@@ -145,7 +147,7 @@ class Planner:
         check_guidance(contact_map, roles)
         source = object.source or object.name
         wanted = self.check_request(task, types, object.properties.mass_kg, source)
-        request = GraspTypeRequest(wanted) if wanted else self._predicted(object, task)
+        request = GraspTypeRequest(wanted) if wanted else self._predicted(object, task, mass_known)
         if missing := missing_types(self.hand, request.types):
             self.tell(f"{self.hand.title} cannot form {', '.join(missing)}: other grips are tried")
         settings = self.params.contact_maps.changed(sessions=sessions or self.params.plan.sessions)
@@ -207,11 +209,12 @@ class Planner:
             import_module(engine)  # a missing library shows before work starts
         return tuple(known_type(name) for name in types)
 
-    def _predicted(self, geometry: ObjectGeometry, task: str) -> GraspTypeRequest:
+    def _predicted(self, geometry: ObjectGeometry, task: str, mass_known: bool) -> GraspTypeRequest:
         """The types that the predictor chooses for the object; the likeliest if none."""
         assert self._predictor is not None  # `check_request` has loaded it
         name = f"{geometry.name}, from {self.params.predict.views} views"
-        answer = self._predictor.predict(geometry, task, name=name)
+        mass_kg = geometry.properties.mass_kg if mass_known else None
+        answer = self._predictor.predict(geometry, task, name=name, mass_kg=mass_kg)
         described = self._predictor.describe([answer], task)
         types = tuple(name for name in GRASP_TYPES if name in answer.chosen)
         return GraspTypeRequest(types, described)

@@ -91,7 +91,7 @@ def fit_head(inputs: Inputs, targets: Targets, settings: HeadSettings) -> Genera
     columns = np.vstack([design(copy, settings, projections, scale) for copy in copies])
     repeated = Targets(*(np.concatenate([array] * len(copies)) for array in vars(targets).values()))
     weights = _descend(columns, repeated, settings.weight_decay)
-    remembered = settings.memory.directions > 0
+    remembered = settings.memory.last_features > 0
     memory = Memory.of(inputs, targets, settings.memory) if remembered else None
     return GeneralHead(settings, *projections, scale, weights, memory)
 

@@ -17,10 +17,10 @@ from grasptypes.predictors.features import for_inference, forward
 from grasptypes.predictors.general import GeneralHead
 from grasptypes.predictors.general_backbone import weights_of
 from grasptypes.predictors.general_inputs import FACTS, Inputs, Projection, TaskCode
-from grasptypes.predictors.known_kinds import KNOWN, KnownKinds, read_kinds
 from grasptypes.predictors.memory import Memory
+from grasptypes.predictors.predictor_files import FROZEN, TrainedRecord
+from grasptypes.predictors.strangeness import Strangeness
 from grasptypes.predictors.weights import Weights
-from grasptypes.records import Record
 from grasptypes.settings.base import Many
 from grasptypes.settings.general import HeadSettings, MemorySettings
 from grasptypes.settings.tasks import read_tasks
@@ -31,33 +31,26 @@ TRAINED = Path(__file__).with_name("trained")
 HEAD, CARD = "general.npz", "general.json"
 # Probabilities are this far from 0 and 1 at least, for logits.
 LEAST = 1e-6
-REMEMBERED = ("places", "facts", "tasks", "occurs", "shares")
+REMEMBERED = ("looks", "facts", "tasks", "occurs", "shares")
+# In half precision: a thousandth of what tells objects apart.
+HALVED = ("memory_looks", "strange_directions")
 
 
-class GeneralCard(Record):
+class GeneralCard(TrainedRecord):
     """Everything needed to use the predictor, apart from the numbers of its head.
 
     Attributes:
-        types: names of its outputs.
         learned: tasks of its examples.
         shapes: number of objects that it has learned from.
         head: settings of its head.
-        backbone: name of its backbone.
-        weights: name and checksum of the backbone's weights.
-        input_px: size of the backbone's input image.
     """
-
-    types: Many[str]
-    learned: Many[str]
-    shapes: int
-    head: HeadSettings
-    backbone: str
-    weights: str
-    input_px: int
 
     model: str = GENERAL
     labels: str = "simulated"
-    finetune: str = "none"
+    finetune: str = FROZEN
+    learned: Many[str]
+    shapes: int
+    head: HeadSettings
     sees_task: bool = True
 
     @property
@@ -70,7 +63,7 @@ class GeneralNetwork:
     """A backbone, a head and their card: images, task, size and mass to grasp types.
 
     Args:
-        known: the kinds that it has learned from, to compare images with.
+        strangeness: whether anything that it has learned looks like an image.
     """
 
     def __init__(
@@ -80,14 +73,14 @@ class GeneralNetwork:
         head: GeneralHead,
         code: TaskCode,
         card: GeneralCard,
-        known: KnownKinds | None = None,
+        strangeness: Strangeness,
     ) -> None:
         self.backbone = for_inference(backbone)
         self.weights = weights
         self.head = head
         self.code = code
         self.card = card
-        self.known = known
+        self.strangeness = strangeness
 
     def answers(
         self, pictures: np.ndarray, task: str, facts: Sequence[float] = ()
@@ -129,9 +122,13 @@ class GeneralNetwork:
 
 
 def write_general(
-    head: GeneralHead, code: TaskCode, card: GeneralCard, target: str | Path, described: str | Path
+    head: GeneralHead,
+    code: TaskCode,
+    strangeness: Strangeness,
+    card: GeneralCard,
+    files: tuple[str | Path, str | Path],
 ) -> None:
-    """Write the numbers of a head, in single precision, and its card."""
+    """Write the numbers of a head, in single precision or less, and its card."""
     arrays = {
         "features_middle": head.features.middle,
         "features_directions": head.features.directions,
@@ -141,25 +138,28 @@ def write_general(
         "weights": head.weights,
         "task_middle": code.middle,
         "task_directions": code.directions,
+        "strange_middle": strangeness.spread.middle,
+        "strange_directions": strangeness.spread.directions,
+        "strange_limit": np.array(strangeness.limit),
     }
     named: dict[str, np.ndarray] = {}
     if head.memory:
         arrays |= {f"memory_{name}": getattr(head.memory, name) for name in REMEMBERED}
-        arrays["memory_middle"] = head.memory.looks.middle
-        arrays["memory_directions"] = head.memory.looks.directions
         named = {"memory_objects": head.memory.objects.astype(np.str_)}
-    numbers = {name: array.astype(np.float32) for name, array in arrays.items()}
-    write_npz(target, {**numbers, **named})
-    card.write(described)
+    numbers = {
+        name: array.astype(np.float16 if name in HALVED else np.float32)
+        for name, array in arrays.items()
+    }
+    write_npz(files[0], {**numbers, **named})
+    card.write(files[1])
 
 
 def _memory(arrays: Mapping[str, np.ndarray], settings: MemorySettings) -> Memory | None:
     """The memory of a head, from its file."""
-    if not settings.directions:
+    if not settings.last_features:
         return None
-    looks = Projection(arrays["memory_middle"], arrays["memory_directions"])
     numbers = {name: arrays[f"memory_{name}"] for name in REMEMBERED}
-    return Memory(settings, arrays["memory_objects"], looks, **numbers)
+    return Memory(settings, arrays["memory_objects"], **numbers)
 
 
 def load_general(
@@ -181,6 +181,7 @@ def load_general(
         message = f"learned with {card.weights}; here is {weights.name}"
         raise InputError(Path(folder, CARD), "weights", message)
     arrays = read_npz(path)
+    arrays |= {name: arrays[name].astype(np.float32) for name in HALVED if name in arrays}
     try:
         head = GeneralHead(
             card.head,
@@ -191,10 +192,9 @@ def load_general(
             _memory(arrays, card.head.memory),
         )
         code = TaskCode(arrays["task_middle"], arrays["task_directions"])
+        spread = Projection(arrays["strange_middle"], arrays["strange_directions"])
+        strangeness = Strangeness(spread, float(arrays["strange_limit"]))
     except KeyError as error:
         raise InputError(path, str(error.args[0]), "this array is missing") from error
-    known = read_kinds(Path(folder, KNOWN)) if Path(folder, KNOWN).is_file() else None
-    if known and not known.weights.endswith(f"({weights.sha256[:8]})"):
-        message = f"are features of {known.weights}, not of {weights.name}"
-        raise InputError(Path(folder, KNOWN), "weights", message)
-    return GeneralNetwork(load_backbone(weights, card.input_px), weights, head, code, card, known)
+    backbone = load_backbone(weights, card.input_px)
+    return GeneralNetwork(backbone, weights, head, code, card, strangeness)

@@ -80,7 +80,7 @@ class Heads:
         """Train on everything that is known."""
         code = TaskCode.of(known.tasks)
         inputs, targets = known.examples(code)
-        forgetful = settings.memory.changed(directions=0)
+        forgetful = settings.memory.changed(last_features=0)
         blind = settings.changed(pictures=0, classes=0, memory=forgetful)
         means = known.samples[list(LABELS)].mean().to_numpy(), frequencies(known.samples).mean(0)
         return cls(

@@ -1,7 +1,4 @@
-"""The kinds that the predictor for unseen objects has learned from, to compare images with.
-
-Two questions: which known kinds look most like the images, and does anything look like them at all?
-"""
+"""The kinds that the predictor for unseen objects has learned from, to compare images with."""
 
 from __future__ import annotations
 
@@ -14,14 +11,11 @@ from pathlib import Path
 import numpy as np
 from PIL import Image
 
-from grasptypes.errors import InputError
-from grasptypes.files import read_npz, write_bytes, write_npz, zip_bytes
+from grasptypes.files import write_bytes, zip_bytes
 from grasptypes.kinds.names import shape_of
-from grasptypes.predictors.general_examples import Families, family_folds
-from grasptypes.predictors.general_inputs import Pictures, Projection
-from grasptypes.settings.commands import KnownKindSettings
+from grasptypes.predictors.memory import Memory
 
-KNOWN, LOOKS = "known_kinds.npz", "known_kinds.zip"
+LOOKS = "known_kinds.zip"
 
 
 @dataclass(frozen=True)
@@ -30,104 +24,21 @@ class Neighbour:
 
     Attributes:
         name: of the kind.
-        similarity: cosine of the angle between both in the backbone's last features, -1 to 1.
+        similarity: cosine of the angle between both in the backbone's last features, -1 to 1; of
+            the most similar object of the kind, and the mean over images.
     """
 
     name: str
     similarity: float
 
 
-@dataclass(frozen=True)
-class KnownKinds:
-    """What known kinds look like to a backbone.
-
-    Attributes:
-        names: (K,) of the kinds.
-        looks: (K, C) mean direction of each kind's images in the C last features.
-        spread: the leading directions of all images, with equal variances.
-        limit: length of a projected image beyond which it is strange.
-        weights: name and checksum of the backbone's weights.
-    """
-
-    names: np.ndarray
-    looks: np.ndarray
-    spread: Projection
-    limit: float
-    weights: str
-
-    def nearest(self, features: np.ndarray, count: int) -> tuple[Neighbour, ...]:
-        """The kinds most like images (N, F) of one object, best first."""
-        shown = _directions(features, self.looks.shape[1]).mean(axis=0)
-        alike = self.looks @ (shown / np.linalg.norm(shown))
-        best = np.argsort(-alike, kind="stable")[:count]
-        return tuple(Neighbour(str(self.names[k]), float(alike[k])) for k in best)
-
-    def strangeness(self, features: np.ndarray) -> np.ndarray:
-        """How unlike all known kinds images (N, F) are, (N,); above 1 nothing known is like them.
-
-        The Mahalanobis distance from the middle of all images of known kinds (Lee et al. 2018).
-        """
-        return np.asarray(np.linalg.norm(self.spread(features), axis=1) / self.limit)
-
-
-def learn_kinds(
-    pictures: Pictures, families: Families, settings: KnownKindSettings, weights: str, seed: int
-) -> KnownKinds:
-    """Describe known kinds; the limit is that of kinds which were held out with their families.
-
-    Args:
-        pictures: of all kinds and objects.
-        weights: name and checksum of the backbone's weights.
-        seed: of the workflow.
-    """
-    lengths = []
-    for out in family_folds(families, settings.folds, seed):
-        held = np.array([bool(families[name] & out) for name in pictures.objects])
-        known = Projection.of(pictures.features[~held], settings.directions, 1.0)
-        lengths.append(np.linalg.norm(known(pictures.features[held]), axis=1))
-    kinds = np.array([_kind_of(name) for name in pictures.objects])
-    names = np.unique(kinds)
-    views = _directions(pictures.features, settings.last_features)
-    means = np.stack([views[kinds == name].mean(axis=0) for name in names])
-    return KnownKinds(
-        names,
-        means / np.linalg.norm(means, axis=1, keepdims=True),
-        Projection.of(pictures.features, settings.directions, 1.0),
-        float(np.quantile(np.concatenate(lengths), 1 - settings.false_alarms)),
-        weights,
-    )
-
-
-def write_kinds(known: KnownKinds, path: str | Path) -> None:
-    """Write in half precision, which is a thousandth of what tells kinds apart."""
-    arrays: dict[str, np.ndarray] = {
-        "looks": known.looks.astype(np.float16),
-        "directions": known.spread.directions.astype(np.float16),
-        "middle": known.spread.middle.astype(np.float32),
-        "limit": np.array(known.limit, dtype=np.float32),
-        "names": known.names.astype(np.str_),
-        "weights": np.array(known.weights),
-    }
-    write_npz(path, arrays)
-
-
-def read_kinds(path: str | Path) -> KnownKinds:
-    """Read what :func:`write_kinds` wrote.
-
-    Raises:
-        InputError: the file is missing or damaged.
-    """
-    arrays = read_npz(path)
-    try:
-        return KnownKinds(
-            arrays["names"],
-            arrays["looks"].astype(np.float32),
-            Projection(arrays["middle"], arrays["directions"].astype(np.float32)),
-            float(arrays["limit"]),
-            str(arrays["weights"]),
-        )
-    except KeyError as error:
-        raise InputError(path, str(error.args[0]), "this array is missing") from error
+def nearest(memory: Memory, features: np.ndarray, count: int) -> tuple[Neighbour, ...]:
+    """The known kinds most like images (N, F) of one object, best first."""
+    alike = memory.likeness(features).mean(axis=0)
+    found: dict[str, float] = {}
+    for place in np.argsort(-alike, kind="stable"):
+        found.setdefault(_kind_of(str(memory.objects[place])), float(alike[place]))
+    return tuple(Neighbour(*one) for one in list(found.items())[:count])
 
 
 def write_looks(pictures: Mapping[str, np.ndarray], size_px: int, path: str | Path) -> None:
@@ -150,12 +61,6 @@ def read_looks(names: Sequence[str], path: str | Path) -> list[np.ndarray]:
     with zipfile.ZipFile(path) as archive:
         files = [io.BytesIO(archive.read(f"{name}.jpg")) for name in names]
     return [np.asarray(Image.open(file).convert("RGB")) for file in files]
-
-
-def _directions(features: np.ndarray, last: int) -> np.ndarray:
-    """Unit vectors of the last features, which tell kinds apart best."""
-    end = features[:, -last:]
-    return np.asarray(end / np.linalg.norm(end, axis=1, keepdims=True))
 
 
 def _kind_of(name: str) -> str:

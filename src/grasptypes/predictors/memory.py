@@ -11,13 +11,11 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.special import log_softmax, softmax
 
-from grasptypes.predictors.general_inputs import Inputs, Projection, Targets, means, spread_of
+from grasptypes.predictors.general_inputs import Inputs, Targets, means, spread_of
 from grasptypes.settings.general import MemorySettings
 
 # Coordinates of tasks are about 1, in single precision.
 SAME_TASK = 1e-4
-# Of the images of an object in any direction, as a share of that of all images.
-LEAST_VARIANCE = 1e-6
 
 
 @dataclass(frozen=True)
@@ -26,8 +24,7 @@ class Memory:
 
     Attributes:
         objects: (C,) names.
-        looks: projection of features in which images of one object vary by 1 in all directions.
-        places: (C, D) mean of each object's images there.
+        looks: (C, L) mean direction of each object's images in the last features; unit vectors.
         facts: (C, 4) of `general_inputs.FACTS`.
         tasks: (T, K) coordinates of the tasks learned from.
         occurs: (T, C, types) which types each object has for a task; NaN where nobody knows.
@@ -36,8 +33,7 @@ class Memory:
 
     settings: MemorySettings
     objects: np.ndarray
-    looks: Projection
-    places: np.ndarray
+    looks: np.ndarray
     facts: np.ndarray
     tasks: np.ndarray
     occurs: np.ndarray
@@ -45,36 +41,22 @@ class Memory:
 
     @classmethod
     def of(cls, inputs: Inputs, targets: Targets, settings: MemorySettings) -> Memory:
-        """Remember the objects of some examples.
-
-        Linear discriminant analysis with a shrunken covariance (Ledoit and Wolf 2004), after
-        a projection to the leading directions.
-        """
+        """Remember the objects of some examples."""
         names, index = np.unique(targets.objects, return_inverse=True)
-        leading = Projection.of(inputs.features, settings.directions, 0.0)
-        seen = leading(inputs.features)
-        within = seen - means(seen, index)[index]
-        covariance = within.T @ within / max(len(seen) - len(names), 1)
-        round_ = np.eye(len(covariance)) * np.trace(covariance) / len(covariance)
-        mixed = (1 - settings.shrinkage) * covariance + settings.shrinkage * round_
-        variance, axes = np.linalg.eigh(mixed)
-        # With one image of each object, nothing is known of how images of an object differ.
-        variance = np.maximum(variance, LEAST_VARIANCE * seen.var(axis=0).sum())
-        directions = leading.directions @ (axes / np.sqrt(variance))
-        looks = Projection(leading.middle, directions)
         tasks, task = np.unique(inputs.tasks, axis=0, return_inverse=True)
         known = np.full((2, len(tasks), len(names), targets.occurs.shape[1]), np.nan)
         known[0, task.ravel(), index] = targets.occurs
         known[1, task.ravel(), index] = targets.shares
-        return cls(
-            settings,
-            names,
-            looks,
-            means(looks(inputs.features), index),
-            means(inputs.facts, index),
-            tasks,
-            *known,
-        )
+        looks = _units(means(_units(inputs.features[:, -settings.last_features :]), index))
+        return cls(settings, names, looks, means(inputs.facts, index), tasks, *known)
+
+    def likeness(self, features: np.ndarray) -> np.ndarray:
+        """How much images look like each object: cosines (N, C).
+
+        Args:
+            features: (N, F) of the backbone.
+        """
+        return np.asarray(_units(features[:, -self.looks.shape[1] :]) @ self.looks.T)
 
     def chances(
         self, features: np.ndarray, facts: np.ndarray, images: np.ndarray | float = 1
@@ -90,11 +72,9 @@ class Memory:
             facts: (N, 4); NaN where unknown.
             images: (N,) of how many images the features are the mean.
         """
-        settings, seen = self.settings, self.looks(features)
-        # Squared distances, without what is the same for all objects.
-        far = (self.places**2).sum(axis=1) - 2 * seen @ self.places.T
+        settings = self.settings
         weight = np.reshape(images, (-1, 1)) ** settings.images_power
-        alike = log_softmax(-far * weight / (2 * settings.temperature), axis=1)
+        alike = log_softmax(self.likeness(features) * weight / settings.temperature, axis=1)
         middle, spread = self.facts.mean(axis=0), self.facts.std(axis=0)
         own = spread_of(settings.size_spread, settings.mass_spread)
         known = alike + _log_density(facts[:, None] - self.facts, own)
@@ -116,6 +96,11 @@ class Memory:
             for mix, memory in zip(found, (self.occurs, self.shares), strict=True):
                 mix[rows] = weights[:, :-1] @ memory[number, known] + weights[:, -1:] * mix[rows]
         return found[0], found[1]
+
+
+def _units(rows: np.ndarray) -> np.ndarray:
+    """Rows (N, D) with length 1."""
+    return np.asarray(rows / np.linalg.norm(rows, axis=1, keepdims=True))
 
 
 def _log_density(off: np.ndarray, spread: np.ndarray) -> np.ndarray:

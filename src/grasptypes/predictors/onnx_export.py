@@ -94,9 +94,7 @@ class GeneralModule(nn.Module):
 class MemoryModule(nn.Module):
     """As :class:`grasptypes.predictors.memory.Memory`."""
 
-    middle: Tensor
-    directions: Tensor
-    places: Tensor
+    looks: Tensor
     facts: Tensor
     tasks: Tensor
     occurs: Tensor
@@ -109,9 +107,7 @@ class MemoryModule(nn.Module):
         self.settings = memory.settings
         unknown = np.isnan(memory.occurs[:, :, 0])
         arrays = {
-            "middle": memory.looks.middle,
-            "directions": memory.looks.directions,
-            "places": memory.places,
+            "looks": memory.looks,
             "facts": memory.facts,
             "tasks": memory.tasks,
             "occurs": np.nan_to_num(memory.occurs),
@@ -127,9 +123,8 @@ class MemoryModule(nn.Module):
         self, told: tuple[Tensor, Tensor], features: Tensor, facts: Tensor, task: Tensor
     ) -> tuple[Tensor, Tensor]:
         """Probability and share (N, types), mixed with those from memory."""
-        seen = (features - self.middle) @ self.directions
-        far = (self.places**2).sum(dim=1) - 2 * seen @ self.places.T
-        alike = torch.log_softmax(-far / (2 * self.settings.temperature), dim=1)
+        seen = nn.functional.normalize(features[:, -self.looks.shape[1] :], dim=1)
+        alike = torch.log_softmax(seen @ self.looks.T / self.settings.temperature, dim=1)
         known = alike + _log_density(facts[:, None] - self.facts, self.own)
         spread = self.facts.std(dim=0, correction=0)
         other = _log_density(facts - self.facts.mean(dim=0), spread)

@@ -16,6 +16,7 @@ from grasptypes.predictors.answers import Answer, Card, described, spelled
 from grasptypes.predictors.batches import in_batches
 from grasptypes.predictors.explanation import explain, small
 from grasptypes.predictors.general_predictor import GENERAL, GeneralNetwork, load_general
+from grasptypes.predictors.known_kinds import nearest
 from grasptypes.predictors.known_size import facts_of_size
 from grasptypes.predictors.predictor import VARIANTS
 from grasptypes.predictors.predictor_files import (
@@ -209,11 +210,9 @@ class Predictor:
     def _compared(self, answer: Answer, features: np.ndarray) -> Answer:
         """An answer with what is known that looks alike."""
         assert isinstance(self.model, GeneralNetwork)
-        known = self.model.known
-        if known is None:
-            return answer
-        near = known.nearest(features, self.params.predict.known_kinds.shown)
-        strangeness = float(known.strangeness(features).mean())
+        memory, count = self.model.head.memory, self.params.predict.known_kinds.shown
+        near = nearest(memory, features, count) if memory else ()
+        strangeness = float(self.model.strangeness(features).mean())
         warnings = answer.warnings
         if strangeness > 1:
             warnings += (f"{STRANGE} (strangeness {strangeness:.2f})",)

@@ -23,16 +23,13 @@ from grasptypes.settings.base import Many
 FROZEN = "none"
 
 
-class ModelCard(Record):
-    """Everything needed to use a predictor, apart from its tensors.
+class TrainedRecord(Record):
+    """What all trained predictors state.
 
     Attributes:
         model: name of its variant.
         labels: label source it was trained on.
         types: names of its outputs.
-        tasks: in the order of the task vector.
-        colour_shifts: shift of the RGB values that encodes each task.
-        architecture: sizes of its head.
         backbone: name of its backbone.
         weights: name and checksum of the backbone's weights.
         input_px: size of the backbone's input image.
@@ -42,13 +39,24 @@ class ModelCard(Record):
     model: str
     labels: str
     types: Many[str]
-    tasks: Many[str]
-    colour_shifts: dict[str, int]
-    architecture: Architecture
     backbone: str
     weights: str
     input_px: int
     finetune: str
+
+
+class ModelCard(TrainedRecord):
+    """Everything needed to use a predictor, apart from its tensors.
+
+    Attributes:
+        tasks: in the order of the task vector.
+        colour_shifts: shift of the RGB values that encodes each task.
+        architecture: sizes of its head.
+    """
+
+    tasks: Many[str]
+    colour_shifts: dict[str, int]
+    architecture: Architecture
 
     @property
     def learned(self) -> Many[str]:

@@ -57,10 +57,6 @@ class ExplanationSettings(Settings):
 class KnownKindSettings(Settings):
     """How images are compared with known kinds."""
 
-    directions: int = setting("principal directions in which images may be strange", ge=1, le=4096)
-    last_features: int = setting("features of the backbone's last block", ge=1, le=4096)
-    folds: int = setting("groups of kinds, each held out in turn", ge=2, le=100)
-    false_alarms: Share = setting("share of the images of held-out kinds that are called strange")
     shown: int = setting("most similar kinds in an answer", ge=1, le=100)
     picture_px: int = setting("side of the small images of kinds", ge=16, le=256)
 

@@ -101,9 +101,8 @@ class ProtocolSettings(Settings):
 class MemorySettings(Settings):
     """How objects that were learned from are recognised."""
 
-    directions: int = setting("principal directions of the features; 0: no memory", ge=0, le=4096)
-    shrinkage: Share = setting("of the covariance of an object's images towards a round one")
-    temperature: float = setting("by which the logits of the objects are divided", gt=0, le=100)
+    last_features: int = setting("last features of an image; 0: no memory", ge=0, le=4096)
+    temperature: float = setting("by which cosines are divided to be logits", gt=0, le=100)
     images_power: Share = setting("n images of one object count as n to this power")
     size_spread: float = setting("by which the logarithm of an extent may be off", gt=0, le=10)
     mass_spread: float = setting("the same of the mass", gt=0, le=10)
@@ -125,6 +124,14 @@ class HeadSettings(Settings):
     memory: MemorySettings
 
 
+class StrangenessSettings(Settings):
+    """Images like which nothing is known."""
+
+    directions: int = setting("principal directions in which images may be strange", ge=1, le=4096)
+    folds: int = setting("groups of objects, each held out in turn", ge=2, le=100)
+    false_alarms: Share = setting("share of the images held out that are called strange")
+
+
 # Trials that are not of the head.
 KINDS, BACKBONE = "kinds", "backbone"
 Backbone = Literal["mobilenet_v2", "efficientnet_lite0"]
@@ -136,6 +143,7 @@ class GeneralSettings(Settings):
     images: ImageSettings
     backbone: Backbone = setting("network of the features")
     head: HeadSettings
+    strangeness: StrangenessSettings
     protocol: ProtocolSettings
     trials: dict[str, Many[int | float | bool | str]] = setting(
         "values that keys of `head`, the number of kinds and the backbone take, one at a time",

@@ -2,6 +2,7 @@
 
 import json
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pandas as pd
@@ -142,6 +143,24 @@ def test_the_predictor_chooses_types_if_none_is_given(
     chosen = {each["type"] for each in answer["types"] if each["chosen"]}
     assert set(said["wanted_types"]) == chosen
     assert said["contact_map"] == "warm.ply"
+
+
+@pytest.mark.parametrize("known", [False, True])
+def test_the_predictor_is_told_a_mass_that_is_known(checkout, mesh, known):
+    told = []
+
+    class Heard(Exception):
+        """The predictor was asked."""
+
+    def predict(*args, mass_kg, **kwargs):
+        told.append(mass_kg)
+        raise Heard
+
+    planner = Planner(checkout)
+    planner._predictor = SimpleNamespace(predict=predict)
+    with pytest.raises(Heard):
+        planner.plan(load_object(mesh, "mm", mass_kg=0.2), "use", mass_known=known)
+    assert told == [pytest.approx(0.2) if known else None]
 
 
 def map_task(checkout, mesh, sessions):

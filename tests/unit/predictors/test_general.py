@@ -27,7 +27,7 @@ from grasptypes.reports.table3 import TABLE_SCHEMA, markdown, tabulate
 from grasptypes.settings.general import GeneralSettings
 from grasptypes.settings.tasks import read_tasks
 
-MEMORY = PARAMS.general.head.memory.changed(directions=0)
+MEMORY = PARAMS.general.head.memory.changed(last_features=0)
 HEAD = PARAMS.general.head.changed(pictures=4, classes=3, weight_decay=0.003, memory=MEMORY)
 TASKS = {name: read_tasks()[name] for name in ("use", "handoff")}
 NUMBER, VIEWS = 40, 3

@@ -105,16 +105,16 @@ def test_the_command_takes_several_images_masks_and_depth(tmp_path, monkeypatch,
 
 
 def test_a_written_head_is_the_one_that_is_read(predictor, tmp_path):
-    network = predictor.model
-    write_general(network.head, network.code, network.card, tmp_path / HEAD, tmp_path / CARD)
+    network, files = predictor.model, (tmp_path / HEAD, tmp_path / CARD)
+    write_general(network.head, network.code, network.strangeness, network.card, files)
     assert file_sha256(tmp_path / HEAD) == file_sha256(TRAINED / HEAD)
     assert GeneralCard.read(tmp_path / CARD) == network.card
 
 
 def test_other_weights_are_refused(predictor, tmp_path):
-    network = predictor.model
+    network, files = predictor.model, (tmp_path / HEAD, tmp_path / CARD)
     card = network.card.changed(weights="others (00000000)")
-    write_general(network.head, network.code, card, tmp_path / HEAD, tmp_path / CARD)
+    write_general(network.head, network.code, network.strangeness, card, files)
     with pytest.raises(InputError, match=r"weights: learned with others \(00000000\)"):
         load_general(tmp_path)
 
