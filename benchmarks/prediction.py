@@ -176,7 +176,7 @@ def kinds_are_found(params: Params) -> Iterator[str]:
     """How often a kind is among the most similar ones, for views of it that were left out."""
     properties = Path("data/kinds/objects").glob("*/properties.json")
     known = read_known_kinds(
-        "data/general/features/kinds.npz", "data/kinds/samples.csv", properties, params.kinds.tasks
+        "data/general/features/kinds.npz", "data/kinds/samples.csv", properties, list(params.tasks)
     )
     kinds, code, first, among = known.pictures, TaskCode.of(known.tasks), [], []
     views = pd.Series(kinds.objects).groupby(kinds.objects).cumcount().to_numpy()

@@ -164,7 +164,9 @@ def _seen(
             files[name] = Path(folder, name + ending)
             files[name].write_bytes(content)
         try:
-            return look(picture, Hints(box=box, **files), predictor.params)
+            mask, depth, intrinsics = (files.get(name) for name in FILES)
+            hints = Hints(box=box, mask=mask, depth=depth, intrinsics=intrinsics)
+            return look(picture, hints, predictor.params)
         except InputError as error:
             raise _refusal(str(error).replace(f"{folder}/", "")) from error
 
