@@ -30,8 +30,8 @@ class Repository:
     def create(cls, path: Path, settings: Path = SMALL) -> Repository:
         """A small configuration, committed, nothing computed yet."""
         copy_checkout(ROOT, path, settings)
-        for leftover in ("dvc.lock",):
-            (path / leftover).unlink(missing_ok=True)
+        (path / "dvc.lock").unlink(missing_ok=True)
+        copy_compiled(ROOT / "src", path / "src")
         repository = cls(path)
         repository.git("init", "-q", "-b", "main", ".")
         repository.commit("Start")
@@ -117,6 +117,18 @@ class Repository:
 
     def dvc_is_clean(self) -> bool:
         return "up to date" in self.dvc("status")
+
+
+def copy_compiled(source: Path, target: Path) -> None:
+    """Copy what Python and Numba have compiled of a folder's modules, for jobs of a copy of it.
+
+    Both compare it with the modules, so that what is stale is compiled anew.
+    """
+    for pattern in ("*.pyc", "*.nbi", "*.nbc"):  # indices before what they list
+        for path in source.rglob(pattern):
+            copied = target / path.relative_to(source)
+            copied.parent.mkdir(parents=True, exist_ok=True)
+            shutil.copy2(path, copied)
 
 
 def jobs(output: str) -> Counter[str]:
