@@ -46,11 +46,10 @@ def test_bad_params_end_with_one_line_and_are_never_run(
     assert not (repository.path / "ran").exists()
 
 
-@pytest.mark.parametrize("library", ["torch", "mlflow", "trimesh", "matplotlib"])
-def test_a_dry_run_imports_nothing_that_takes_seconds(
-    fresh: Repository, tmp_path: Path, library: str
-) -> None:
-    (tmp_path / f"{library}.py").write_text("raise SystemExit('imported at the start')\n")
+def test_a_dry_run_imports_nothing_that_takes_seconds(fresh: Repository, tmp_path: Path) -> None:
+    for library in ("torch", "mlflow", "trimesh", "matplotlib"):
+        text = f"raise SystemExit('{library} is imported at the start')\n"
+        (tmp_path / f"{library}.py").write_text(text)
     assert "Job stats" in fresh.run("snakemake", "-n", PYTHONPATH=str(tmp_path))
 
 
@@ -71,28 +70,39 @@ def test_jobs_start_only_for_who_holds_the_folder(repository: Repository) -> Non
     assert not half.exists()
 
 
-@pytest.mark.parametrize(
-    ("statement", "reason"),
-    [
-        ("raise InputError('mesh.stl', 'faces', 'are missing')", "mesh.stl: faces: are missing"),
-        ("raise KeyError('mug')", "KeyError: 'mug'"),
-        ("raise OSError(28, 'No space left on device', 'a.npz')", "a.npz: No space left on device"),
-        ("raise MemoryError", "not enough memory for this job"),
-        ("sys.exit(3)", "ended without a message"),
-        ("os.kill(os.getpid(), 9)", "ended without a message, as if killed"),
-    ],
-)
-def test_a_job_that_fails_ends_with_its_reason(
-    repository: Repository, statement: str, reason: str
-) -> None:
+# What the job of an object does, and what is said of it.
+FAILURES = {
+    "apple": ("raise KeyError('mug')", "KeyError: 'mug'"),
+    "banana": (
+        "raise InputError('mesh.stl', 'faces', 'are missing')",
+        "mesh.stl: faces: are missing",
+    ),
+    "bowl": (
+        "raise OSError(28, 'No space left on device', 'a.npz')",
+        "a.npz: No space left on device",
+    ),
+    "cup": ("raise MemoryError", "not enough memory for this job"),
+    "knife": ("sys.exit(3)", "ended without a message"),
+    "mug": ("os.kill(os.getpid(), 9)", "ended without a message, as if killed"),
+}
+FAILING = """
+import os, sys
+from grasptypes.errors import InputError
+from grasptypes.jobs import job
+with job(snakemake.log):
+    exec({statements}[snakemake.wildcards.object])
+"""
+
+
+def test_jobs_that_fail_end_with_their_reasons(repository: Repository) -> None:
+    repository.set_param("objects.names", [*FAILURES])
+    statements = {name: statement for name, (statement, _) in FAILURES.items()}
     script = repository.path / "workflow/scripts/prepare_object.py"
-    text = script.read_text()
-    main = text.index("    with job(snakemake.log)")
-    imports = "    import os, sys\n    from grasptypes.errors import InputError\n"
-    script.write_text(f"{text[:main]}{imports}    with job(snakemake.log):\n        {statement}\n")
-    output = repository.run("snakemake", "-j1", OBJECT, check=False)
-    assert f"\nerror: prepare_object/mug: {reason}" in output
-    assert output.index(f"error: prepare_object/mug: {reason}") > output.index("Error in rule")
+    script.write_text(FAILING.format(statements=statements))
+    output = repository.run("snakemake", "-j2", "objects", check=False)
+    summary = output[output.rindex("Error in rule") :]
+    for name, (_, reason) in FAILURES.items():
+        assert f"\nerror: prepare_object/{name}: {reason}" in summary
 
 
 def test_workflow_is_linted_and_every_script_is_hashed() -> None:
