@@ -2,16 +2,10 @@
 
 import importlib
 import logging
-import os
 import sys
 
 import pytest
 from hosts import serving
-
-from grasptypes.runtime import ONE_THREAD
-
-# The threads of test processes that run side by side would wait for each other.
-os.environ.update(ONE_THREAD)
 
 
 def pytest_collection_finish(session: pytest.Session) -> None:

@@ -41,6 +41,7 @@ SMALL_PLANS = {
     "predict": {"views": 2},
     "gallery": {"size_px": 64, "tile_px": 64},
     "synthesis": {"candidates": {"number": 150}, "refinement": {"rounds": 1}},
+    "physics": {"test": {"shake": False, "squeeze_time_s": 0.3, "hold_time_s": 0.1}},
     "contact_maps": {"points": 1500},
     "objects": {"resolution": {"surface_edge_m": 0.006, "grid_spacing_m": 0.004}},
     "plan": {"sessions": 3, "shown": 2},
