@@ -79,7 +79,9 @@ NETWORK_DIGESTS = [
 PINNED = "from grasptypes.runtime import pin_runtime; pin_runtime()\n" + USED
 
 
-@pytest.mark.parametrize("name", [*HOSTILE, "all of them"])
+@pytest.mark.parametrize(
+    "name", ["all of them", *(pytest.param(name, marks=pytest.mark.slow) for name in HOSTILE)]
+)
 @pytest.mark.skipif("avx2" not in processor_features(), reason="this processor has no AVX2")
 def test_what_users_set_changes_nothing(name):
     found = used_with(HOSTILE if name == "all of them" else {name: HOSTILE[name]}, PINNED)
