@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 from repository import ROOT, Repository
 
-NAMES = ["a space", "umläut", "it's", 'a"quote', "$HOME #1", "[b] (c)", "semi;colon & co"]
+NAMES = ["a space; [b] (c) & umläut", 'it\'s"quoted"', "$HOME #1"]
 TARGET = "data/contact_maps/mug/use.npz"
 
 
