@@ -5,11 +5,19 @@ import re
 import signal
 import subprocess
 import time
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 from repository import TARGET, Repository, jobs
 from verify import RESULTS, checksums
+
+# Two models and what was measured of them: two jobs at a time, and the tables after them.
+LOST = [
+    f"{folder}/simulated/{model}*"
+    for folder in ("models", "reports/metrics", "reports/loss_curves")
+    for model in ("no_task", "task_vector")
+]
 
 
 def test_both_tools_have_nothing_to_do_and_git_sees_no_results(complete: Repository) -> None:
@@ -40,11 +48,31 @@ def test_a_clone_that_pulls_has_nothing_to_do_and_notices_changes(
     assert clone.lose("data/renders").snakemake_is_clean()
 
 
-def test_versions_come_and_go_with_git_and_metrics_are_compared(changed: Repository) -> None:
-    changed.set_param("predictors.epochs", 7)
-    assert jobs(changed.dvc("repro"))["train_predictor"] == 10
+def round_scores(repository: Repository) -> None:
+    module = repository.path / "src/grasptypes/reports/scores.py"
+    text = module.read_text()
+    assert "\nDIGITS = 4" in text
+    module.write_text(text.replace("\nDIGITS = 4", "\nDIGITS = 1"))
+
+
+def train_longer(repository: Repository) -> None:
+    repository.set_param("predictors.epochs", 7)
+
+
+@pytest.mark.parametrize(
+    ("change", "rule", "count"),
+    [
+        (round_scores, "summarise_scores", 1),
+        pytest.param(train_longer, "train_predictor", 10, marks=pytest.mark.slow),
+    ],
+)
+def test_versions_come_and_go_with_git_and_metrics_are_compared(
+    changed: Repository, change: Callable[[Repository], None], rule: str, count: int
+) -> None:
+    change(changed)
+    assert jobs(changed.dvc("repro"))[rule] == count
     assert changed.snakemake_is_clean("all")
-    changed.commit("Longer")
+    changed.commit("Changed")
     compared = changed.dvc("metrics", "diff", "HEAD~1", "HEAD")
     assert "reports/scores/simulated/task_vector.json" in compared
     for version in ("HEAD~1", "main"):
@@ -95,11 +123,13 @@ def test_dvc_shows_scores_stages_and_pictures_offline(changed: Repository) -> No
     assert all((page.parent / picture).is_file() for picture in pictures)
 
 
-@pytest.mark.parametrize("command", [("snakemake", "-j2"), ("dvc", "repro")], ids=" ".join)
+@pytest.mark.parametrize(
+    "command", [("snakemake", "-j2", "predictors", "all"), ("dvc", "repro")], ids=" ".join
+)
 def test_a_second_run_is_refused_and_a_killed_one_goes_on(
     changed: Repository, complete: Repository, command: tuple[str, ...]
 ) -> None:
-    changed.lose("models", "reports")
+    changed.lose(*LOST)
     log = changed.path.parent / "run.log"
     with log.open("w") as output:
         first = subprocess.Popen(
@@ -118,6 +148,7 @@ def test_a_second_run_is_refused_and_a_killed_one_goes_on(
         assert re.search(r"another run is active in this folder: process \d+", said)
         assert "Execute" not in said
         assert "Job stats" in changed.run("snakemake", "-n")  # a dry run reads along
+        assert first.poll() is None, "it ended before it was killed"
     finally:
         os.killpg(first.pid, signal.SIGKILL)
         first.wait()
