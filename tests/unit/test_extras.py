@@ -6,6 +6,7 @@ import tomllib
 from pathlib import Path
 
 import pytest
+import trimesh
 from PIL import Image
 
 from grasptypes.extras import EXTRAS, MissingExtraError, missing_extra
@@ -55,7 +56,9 @@ import grasptypes
 from grasptypes.labels.dataset import dataset_schema
 grasptypes.label, grasptypes.load_object, grasptypes.GRASP_TYPES, grasptypes.Grasp
 """
-    for what in (code, command("hand", "check", "allegro")):
+    trimesh.creation.cylinder(0.03, 0.1).export(tmp_path / "can.stl")
+    page = command("inspect", "can.stl", "--task", "use", "--page", "can.html")
+    for what in (code, command("hand", "check", "allegro"), page):
         done = without(OPTIONAL, what, tmp_path)
         assert done.returncode == 0, done.stderr
 

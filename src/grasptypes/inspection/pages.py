@@ -3,31 +3,20 @@ task."""
 
 from __future__ import annotations
 
-import trimesh
-
 from grasptypes.inspection.inspection import Inspection
-from grasptypes.inspection.pictures import face_parts, role_of
+from grasptypes.segmentation.on_surface import role_of, with_parts
 from grasptypes.viewer.grasp_views import GraspViews
 from grasptypes.viewer.page import page
-from grasptypes.viewer.shown_object import ShownObject, ShownPart, vertex_values
-
-# What parts look like without the colours of their roles.
-GREY, METALLIC, ROUGHNESS = (0.6, 0.6, 0.6), 0.0, 0.7
+from grasptypes.viewer.shown_object import ShownObject, surface_parts, vertex_values
 
 
 def inspection_page(inspection: Inspection) -> str:
     """One HTML page that needs no network."""
-    surface, points = inspection.geometry.surface, inspection.drawn.points
-    of_face = face_parts(surface, points, inspection.parts.part_index)
-    parts = []
-    for number, (name, role) in enumerate(role_of(inspection.parts).items()):
-        if (faces := surface.faces[of_face == number]).size:
-            mesh = trimesh.Trimesh(surface.vertices, faces, process=False)
-            mesh.remove_unreferenced_vertices()
-            parts.append(ShownPart(name, role, GREY, METALLIC, ROUGHNESS, mesh))
+    parts = inspection.parts
+    surface = with_parts(inspection.geometry.surface, inspection.drawn.points, parts)
     shown = ShownObject(
         inspection.geometry.name,
-        parts,
+        surface_parts(surface, role_of(parts)),
         surface,
         {
             each.task: vertex_values(

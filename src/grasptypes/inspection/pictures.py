@@ -11,15 +11,13 @@ from matplotlib import colormaps
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 from numpy.typing import NDArray
-from scipy.spatial import cKDTree
 
-from grasptypes.contact_maps.placement import SurfacePoints
 from grasptypes.inspection.inspection import Inspection
-from grasptypes.objects.object_files import Surface
 from grasptypes.renders.contact_pictures import contact_picture, look_at, plain
 from grasptypes.renders.renderer import Camera
 from grasptypes.renders.scene import Part
 from grasptypes.reports.sheets import Tile
+from grasptypes.segmentation.on_surface import face_normals, face_parts, role_of
 from grasptypes.segmentation.parts import Parts
 from grasptypes.settings.params import Params
 from grasptypes.settings.renders import ContactPictureSettings
@@ -30,9 +28,6 @@ Array = NDArray[np.float64]
 SHOWN = 4
 # Parts without a role.
 GREY = (0.6, 0.6, 0.6, 1.0)
-# Weight of a difference between normals against metres: points on the other side of a wall are far
-# away.
-NORMAL_M = 0.01
 
 
 def inspection_png(inspection: Inspection, params: Params) -> bytes:
@@ -112,30 +107,12 @@ def both_sides(
     return np.hstack(sides)
 
 
-def role_of(parts: Parts) -> Mapping[str, str]:
-    """Name of the role of each part by name; empty without one."""
-    return {name: part.role if part else "" for name, part in parts.roles.items()}
-
-
 def role_colours(parts: Parts) -> dict[str, tuple[float, float, float, float]]:
     """An sRGB colour for each role that the parts have, in their order."""
     roles = [role for role in dict.fromkeys(role_of(parts).values()) if role]
     # The ten strong colours, then the ten light ones.
     shades = [colormaps["tab20"](2 * at % 20 + at // 10) for at in range(len(roles))]
     return {role: shade for role, shade in zip(roles, shades, strict=True)}
-
-
-def face_parts(
-    surface: Surface, points: SurfacePoints, part_index: NDArray[np.int16]
-) -> NDArray[np.int16]:
-    """Part (F,) of each face of a surface: that of the nearest point (N,) that faces the same
-    way."""
-    corners = surface.vertices[surface.faces]
-    normals = _face_normals(corners)
-    tree = cKDTree(np.hstack([points.points_m, NORMAL_M * points.normals]))
-    return np.asarray(
-        part_index[tree.query(np.hstack([corners.mean(axis=1), NORMAL_M * normals]))[1]]
-    )
 
 
 def coloured_parts(
@@ -148,7 +125,7 @@ def coloured_parts(
     for number, role in enumerate(role_of(parts).values()):
         corners = surface.vertices[surface.faces[of_face == number]]
         if len(corners):
-            normals = _face_normals(corners)
+            normals = face_normals(corners)
             triangles = np.arange(3 * len(corners)).reshape(-1, 3)
             colour = np.array(colours.get(role, GREY)[:3]) ** 2.2
             found.append(
@@ -162,9 +139,3 @@ def coloured_parts(
                 )
             )
     return found
-
-
-def _face_normals(corners: Array) -> Array:
-    """Unit normals (F, 3) of faces with corners (F, 3, 3); zero where a face has no area."""
-    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    return np.asarray(normals / np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-30))

@@ -20,6 +20,8 @@ Array = NDArray[np.float64]
 
 # Points of a contact map that a vertex takes its value from: those next to it on its own side.
 NEIGHBOURS = 8
+# Colour, metallic and roughness of what has no material.
+GREY = ((0.6, 0.6, 0.6), 0.0, 0.7)
 
 
 class ShownPart(NamedTuple):
@@ -89,6 +91,36 @@ def load_shown_object(
         return ShownObject(name, parts, None, {})
     values = {task: vertex_values(surface, *each) for task, each in maps.items()}
     return ShownObject(name, parts, surface, values)
+
+
+def surface_parts(
+    surface: Surface, roles: Mapping[str, str], seen: Sequence[ShownPart] = ()
+) -> list[ShownPart]:
+    """A surface cut into its parts.
+
+    Args:
+        roles: role of each part that has one.
+        seen: the object in its materials; a part takes that which is nearest to most of it. Without
+            any, parts are grey.
+    """
+    owner = surface.part_index[surface.faces[:, 0]]
+    tree, material_at = None, np.empty(0, dtype=int)
+    if seen:
+        tree = cKDTree(np.concatenate([part.mesh.triangles_center for part in seen]))
+        material_at = np.repeat(np.arange(len(seen)), [len(part.mesh.faces) for part in seen])
+    parts = []
+    for number, name in enumerate(map(str, surface.part_names)):
+        if not (owner == number).any():
+            continue
+        mesh = trimesh.Trimesh(surface.vertices, surface.faces[owner == number], process=False)
+        mesh.remove_unreferenced_vertices()
+        look = GREY
+        if tree is not None:
+            near = material_at[tree.query(mesh.triangles_center)[1]]
+            most = seen[int(np.bincount(near).argmax())]
+            look = most.colour, most.metallic, most.roughness
+        parts.append(ShownPart(name, roles.get(name, ""), *look, mesh))
+    return parts
 
 
 def vertex_values(
