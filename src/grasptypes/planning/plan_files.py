@@ -11,15 +11,18 @@ import pandas as pd
 import pandera.pandas as pa
 from scipy.spatial.transform import RigidTransform
 
+from grasptypes.contact_maps.contact_map_files import write_contact_map
 from grasptypes.exchange import dexgraspbench, graspit_world, multigrippergrasp
 from grasptypes.exchange.published_csv import format_configuration
 from grasptypes.exchange.records import PosedHands
 from grasptypes.files import staging_name, write_bytes, write_json
 from grasptypes.hands import configuration
 from grasptypes.hands.hand import Hand
+from grasptypes.labels.contact_table import contact_schema
 from grasptypes.labels.dataset import VALID, dataset_columns, dataset_schema
 from grasptypes.labels.grasp_type import GRASP_TYPES
-from grasptypes.objects.object_files import COLLISION, PROPERTIES, VISUAL
+from grasptypes.objects.object_files import COLLISION, PROPERTIES, SURFACE, VISUAL, write_surface
+from grasptypes.planning.held_contacts import GRASP
 from grasptypes.planning.plan_summary import summarise
 from grasptypes.planning.planner import Plan
 from grasptypes.renders.contact_pictures import plain
@@ -27,10 +30,11 @@ from grasptypes.renders.gallery import grasp_picture, state_of
 from grasptypes.renders.renderer import Camera, png_bytes
 from grasptypes.renders.scene import load_parts
 from grasptypes.reports.sheets import Group, Tile, sheet
+from grasptypes.segmentation.on_surface import with_parts
 from grasptypes.settings.params import Params
 from grasptypes.tables import write_table
 
-PICTURE = "grasps.png"
+PICTURE, CONTACTS, CONTACT_MAP = "grasps.png", "contacts.csv", "contact_map.npz"
 ATTEMPT_TABLE_SCHEMA = pa.DataFrameSchema(
     {
         "session": pa.Column(int, pa.Check.ge(1)),
@@ -65,7 +69,7 @@ def write_plan(plan: Plan, folder: Path) -> None:
 
 
 def _write_files(plan: Plan, folder: Path) -> None:
-    """Write tables, `plan.json`, the object, exchange formats and an image."""
+    """Write tables, contact map, `plan.json`, the object, exchange formats and an image."""
     shown = plan.params.plan.shown
     valid = plan.ranking[plan.ranking.valid]
     pictured = plan.ranking.valid & (np.arange(len(plan.ranking)) < shown)
@@ -73,9 +77,16 @@ def _write_files(plan: Plan, folder: Path) -> None:
     hand = plan.hand
     write_table(dataset_columns(table, hand), folder / "grasps.csv", dataset_schema(hand))
     write_table(_attempt_table(plan.attempts), folder / "attempts.csv", ATTEMPT_TABLE_SCHEMA)
+    write_table(plan.contacts, folder / CONTACTS, contact_schema(GRASP))
     (folder / "object").mkdir()
     for name in (VISUAL, COLLISION, PROPERTIES):
         shutil.copyfile(plan.geometry.folder / name, folder / "object" / name)
+    surface = plan.geometry.surface
+    if plan.parts:
+        surface = with_parts(surface, plan.points, plan.parts)
+    write_surface(folder / "object" / SURFACE, surface)
+    if plan.held_where:
+        write_contact_map(plan.held_where, folder / CONTACT_MAP)
     if len(valid):
         write_formats(posed(valid, hand), folder)
         picture = draw_best(valid.head(shown), hand, plan.geometry.visual, plan.params)

@@ -10,13 +10,15 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import pandas as pd
 
-from grasptypes.contact_maps.contact_map import MapTask
+from grasptypes.contact_maps.contact_map import ContactMap, MapTask
+from grasptypes.contact_maps.placement import SurfacePoints
 from grasptypes.errors import InputError
 from grasptypes.hands.hand import Hand
 from grasptypes.hands.reading import load_hand
 from grasptypes.labels.grasp import Grasp, grasps_of
 from grasptypes.labels.grasp_type import GRASP_TYPES
 from grasptypes.objects.object_geometry import ObjectGeometry
+from grasptypes.planning.held_contacts import held_contacts
 from grasptypes.planning.plan_contacts import (
     MeasuredMap,
     grips_of,
@@ -54,9 +56,13 @@ class Plan:
         params: parameters of the plan.
         contact_map: name of the measured map, if any.
         parts: the parts that people hold; None with a measured map.
+        points: points on the surface, to which `parts` belong.
+        held_where: where the sessions' people hold the object; None if every place is as good.
         attempts: one row per grasp tried, labelled: columns of `grasps.ATTEMPT_SCHEMA` and
             `dataset.label_grasps`, `grip` and `tries`.
         ranking: the chosen attempts, one per session, best first.
+        contacts: of the valid grasps of `ranking`, at the end of the physics test, see
+            `contact_schema`.
     """
 
     geometry: ObjectGeometry
@@ -66,8 +72,11 @@ class Plan:
     params: Params
     contact_map: str | None
     parts: Parts | None
+    points: SurfacePoints
+    held_where: ContactMap | None
     attempts: pd.DataFrame
     ranking: pd.DataFrame
+    contacts: pd.DataFrame
 
     @property
     def grasps(self) -> list[Grasp]:
@@ -173,8 +182,21 @@ class Planner:
         self.tell(f"searching for {', '.join(request.types)} grasps of {object.name} for {task}")
         context = PlanningContext(object, task, MESH_WORD, self.hand.folder, self.params)
         attempts, ranking = plan_sessions(context, contacts, request.types, self.jobs, self.tell)
-        used = contact_map.path.name if contact_map else None
-        return Plan(object, task, request, self.hand, self.params, used, parts, attempts, ranking)
+        touching = held_contacts(ranking, self.hand, object, self.params.physics.test)
+        return Plan(
+            geometry=object,
+            task=task,
+            request=request,
+            hand=self.hand,
+            params=self.params,
+            contact_map=contact_map.path.name if contact_map else None,
+            parts=parts,
+            points=drawn.points,
+            held_where=contacts.contact_map if held or contact_map else None,
+            attempts=attempts,
+            ranking=ranking,
+            contacts=touching,
+        )
 
     def check_request(
         self, task: str, types: Sequence[str], mass_kg: float | None, source: str = ""

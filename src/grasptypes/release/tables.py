@@ -10,6 +10,7 @@ import numpy as np
 import pandas as pd
 
 from grasptypes.hands.hand import Hand
+from grasptypes.labels.contact_table import NORMAL_COLUMNS, POINT_COLUMNS, contact_rows
 from grasptypes.labels.dataset import dataset_schema
 from grasptypes.labels.samples import SAMPLE_SCHEMA
 from grasptypes.objects.object_files import PROPERTIES, SURFACE, read_properties, read_surface
@@ -17,7 +18,6 @@ from grasptypes.predictors.folds import FOLD_SCHEMA
 from grasptypes.tables import read_table
 
 HELD_OUT, FITTED = "held_out", "fitted"
-AXES = ("x", "y", "z")
 
 # What the columns of each table mean; those of a hand's joints are named like its joints.
 MEANINGS = {
@@ -52,8 +52,8 @@ MEANINGS = {
     "pregrasp_pose": "3x4 pose of the palm in front of the object, row by row (metres)",
     "pregrasp_joints": "all joints there, the hand is open (radians, prismatic joints metres)",
     "link": "link of the hand that touches",
-    **{f"point_{axis}_m": "contact in the object's frame, metres" for axis in AXES},
-    **{f"normal_{axis}": "unit normal into the object" for axis in AXES},
+    **dict.fromkeys(POINT_COLUMNS, "contact in the object's frame, metres"),
+    **dict.fromkeys(NORMAL_COLUMNS, "unit normal into the object"),
     "force_n": "of the hand along the normal at the end of the physics test, newtons",
     "object": "name of the object",
     "task": "use or handoff",
@@ -104,18 +104,14 @@ def _contacts(data: Path, grasps: pd.DataFrame) -> pd.DataFrame:
     found = []
     for name, task in dict.fromkeys(zip(grasps.Object, grasps.Intent, strict=True)):
         for row in pd.read_parquet(data / "grasps" / name / f"{task}.parquet").itertuples():
-            count = len(row.contact_links)
-            points = np.reshape(row.contact_points_m, (count, 3))
-            normals = np.reshape(row.contact_normals, (count, 3))
             found.append(
-                pd.DataFrame(
-                    {
-                        "Index": index[name, task, row.session],
-                        "link": row.contact_links,
-                        **{f"point_{axis}_m": points[:, k] for k, axis in enumerate(AXES)},
-                        **{f"normal_{axis}": normals[:, k] for k, axis in enumerate(AXES)},
-                        "force_n": row.contact_forces_n,
-                    }
+                contact_rows(
+                    "Index",
+                    index[name, task, row.session],
+                    row.contact_links,
+                    row.contact_points_m,
+                    row.contact_normals,
+                    row.contact_forces_n,
                 )
             )
     table = pd.concat(found, ignore_index=True)

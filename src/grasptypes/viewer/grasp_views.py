@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import NamedTuple
 
@@ -18,16 +18,17 @@ from grasptypes.hands.folders import hand_names
 from grasptypes.hands.hand import Hand
 from grasptypes.hands.reading import load_hand
 from grasptypes.hands.states import HandStates
-from grasptypes.labels.contacts import MeshDistance, find_contacts
+from grasptypes.labels.contact_table import NORMAL_COLUMNS, POINT_COLUMNS, contact_schema
 from grasptypes.labels.grasp_table import number_column, read_grasp_table
 from grasptypes.objects.object_files import PROPERTIES, SURFACE, VISUAL, read_surface
 from grasptypes.settings.params import Params, checkout_params
+from grasptypes.tables import read_table
 from grasptypes.viewer.closing_motion import Motion, closing_motion
-from grasptypes.viewer.shown_object import ShownObject, load_shown_object
+from grasptypes.viewer.shown_object import ShownObject, load_shown_object, surface_parts
 
 Array = NDArray[np.float64]
 
-GRASPS, PLAN = "grasps.csv", "plan.json"
+GRASPS, PLAN, CONTACTS, CONTACT_MAP = "grasps.csv", "plan.json", "contacts.csv", "contact_map.npz"
 # Cells of a table that the viewer shows beside a grasp, if they are there.
 FACTS = ("Error", "reason", "shape", "branch", "margin", "penetration_m", "tries")
 
@@ -99,7 +100,7 @@ def load_views(what: str, folder: Path | None, hand: str | None) -> GraspViews:
     if not path.is_file():
         raise InputError(path, "", "no such file")
     if (path.parent / PLAN).is_file():
-        return _of_plan(path, hand, params)
+        return _of_plan(path.parent, hand)
     return dataset_views(path, _hand(hand, params, root))
 
 
@@ -183,21 +184,41 @@ def _recorded(data: Path, cells: pd.DataFrame) -> list[ShownContacts]:
     return found
 
 
-def _of_plan(path: Path, hand_name: str | None, params: Params) -> GraspViews:
+def _of_plan(folder: Path, hand_name: str | None) -> GraspViews:
     """The grasps of a plan's folder."""
-    with parsing(path.parent / PLAN, "is not the summary of a plan"):
-        summary = json.loads((path.parent / PLAN).read_text(encoding="utf-8"))
-        _ = summary["hand"], summary["object"]
-    hand = load_hand(hand_name) if hand_name else _titled(path.parent / PLAN, summary["hand"])
-    cells, states = read_grasp_table(path, hand)
-    folder = path.parent / "object"
-    roles = _roles(folder / PROPERTIES)
-    shown = load_shown_object(summary["object"], folder / VISUAL, None, {}, roles)
-    contacts = _near(shown, states, params)
-    ranks = number_column(path, cells.Rank).astype(int).tolist()
-    cells = cells.assign(Session=number_column(path, cells.Session).astype(int))
-    title = f"{summary['object']}, {summary['task']}"
-    return GraspViews(title, hand, {shown.name: shown}, _grasps(cells, states, ranks, contacts))
+    with parsing(folder / PLAN, "is not the summary of a plan"):
+        summary = json.loads((folder / PLAN).read_text(encoding="utf-8"))
+        name, task, title = summary["object"], summary["task"], summary["hand"]
+        found = summary["parts"] and {
+            part["part"]: part["role"] or "" for part in summary["parts"]["parts"]
+        }
+    hand = load_hand(hand_name) if hand_name else _titled(folder / PLAN, title)
+    cells, states = read_grasp_table(folder / GRASPS, hand)
+    visual, surface = folder / "object" / VISUAL, read_surface(folder / "object" / SURFACE)
+    maps = {}
+    if (folder / CONTACT_MAP).is_file():
+        touched = read_contact_map(folder / CONTACT_MAP)
+        maps[task] = (touched.points, touched.normals, touched.probability)
+    shown = load_shown_object(name, visual, surface, maps, {})
+    if found:
+        shown = replace(shown, parts=surface_parts(surface, found, shown.parts))
+    ranks = number_column(folder / GRASPS, cells.Rank).astype(int).tolist()
+    cells = cells.assign(Session=number_column(folder / GRASPS, cells.Session).astype(int))
+    contacts = _tested(folder / CONTACTS, cells.Session.tolist())
+    grasps = _grasps(cells, states, ranks, contacts)
+    return GraspViews(f"{name}, {task}", hand, {name: shown}, grasps)
+
+
+def _tested(path: Path, sessions: Sequence[int]) -> list[ShownContacts]:
+    """The contacts that the physics test of a plan measured, by session."""
+    table = read_table(path, contact_schema("Session"))
+    found = []
+    for session in sessions:
+        rows = table[table.Session == session]
+        forces = rows[[*NORMAL_COLUMNS]].to_numpy() * rows.force_n.to_numpy()[:, None]
+        points = rows[[*POINT_COLUMNS]].to_numpy()
+        found.append(ShownContacts(tuple(rows.link), points, forces))
+    return found
 
 
 def _titled(path: Path, title: str) -> Hand:
@@ -207,19 +228,6 @@ def _titled(path: Path, title: str) -> Hand:
         if hand.title == title:
             return hand
     raise InputError(path, "hand", f"{title} does not come with the package: name it with --hand")
-
-
-def _near(shown: ShownObject, states: HandStates, params: Params) -> list[ShownContacts]:
-    """Where links are closer than a touch; plans do not record forces."""
-    settings = params.grasp_types.contacts
-    contacts = find_contacts(MeshDistance.of(shown.mesh), states, settings)
-    found = []
-    for index, T_object_hand in enumerate(states.T_object_hand):
-        near = contacts.gap_m[index] <= params.physics.validity.touch_m
-        points = contacts.position_m[index][near] @ T_object_hand[:3, :3].T + T_object_hand[:3, 3]
-        links = tuple(name for name, yes in zip(states.hand.link_names, near, strict=True) if yes)
-        found.append(ShownContacts(links, points, None))
-    return found
 
 
 def _grasps(

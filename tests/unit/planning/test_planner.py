@@ -35,6 +35,7 @@ from grasptypes.planning.planner import Planner
 from grasptypes.planning.sessions import choose, ranked
 from grasptypes.predictors.weights import WEIGHTS_VARIABLE
 from grasptypes.settings.params import read_params
+from grasptypes.viewer.grasp_views import load_views
 
 SESSIONS = SMALL_PLANS["plan"]["sessions"]
 
@@ -83,6 +84,25 @@ def test_tables_can_be_read_as_the_published_one(planned):
     ours = pd.read_csv(planned / "grasps.csv")
     assert ((ours.GraspType == "Invalid") == (ours.reason != "valid")).all()
     assert ours.branch.str.startswith(("power: ", "precision: ")).all()
+
+
+def test_the_viewer_shows_parts_with_roles_contact_map_and_forces(planned):
+    shown = load_views(str(planned), None, None)
+    tube = shown.objects["tube"]
+    parts = json.loads((planned / "plan.json").read_text())["parts"]["parts"]
+    assert {part.name: part.role for part in tube.parts} == {
+        part["part"]: part["role"] for part in parts
+    }
+    assert list(tube.maps) == ["use"]
+    assert 0 <= tube.maps["use"].min() < tube.maps["use"].max() <= 1
+    surface = trimesh.load_mesh(planned / "object" / "visual.glb")
+    table = pd.read_csv(planned / "grasps.csv")
+    for grasp, valid in zip(shown.grasps, table.reason == "valid", strict=True):
+        assert (len(grasp.contacts.links) > 0) == valid
+        if valid:
+            assert np.linalg.norm(grasp.contacts.forces_n, axis=1).sum() > 1
+            away = trimesh.proximity.closest_point(surface, grasp.contacts.points_m)[1]
+            assert away.max() < 0.003
 
 
 def test_every_try_has_a_reason(planned):
