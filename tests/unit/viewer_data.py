@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 
 import numpy as np
@@ -47,6 +48,9 @@ def _write_object(data: Path, name: str, size: tuple[float, float]) -> None:
     own = OwnObject.check({"file": str(mesh), "unit": "m", "density_kg_m3": 500.0})
     imported = import_model(own, PARAMS.objects.import_)
     prepare(name, imported, PARAMS.objects.resolution, data / "objects" / name)
+    properties = data / "objects" / name / "properties.json"
+    roles = {"roles": {"body": {"role": "container_wall", "attributes": []}}}
+    properties.write_text(json.dumps(json.loads(properties.read_text()) | roles))
     surface = read_surface(data / "objects" / name / "surface.npz")
     whole = trimesh.Trimesh(surface.vertices, surface.faces, process=False)
     count = len(surface.vertices)

@@ -37,6 +37,9 @@ CHOOSE = """const box = document.getElementById(arguments[0]);
 box.value = arguments[1]; box.dispatchEvent(new Event('change'));"""
 MOVE = """const bar = document.getElementById('moment');
 bar.value = arguments[0]; bar.dispatchEvent(new Event('input'));"""
+# What page.js draws contacts with.
+POINT, FORCE = (0, 176, 80), (0, 87, 217)
+LEGENDS = {"parts": "body (container_wall)", "contact map": "100 %"}
 # The page has drawn what it was told before.
 DRAWN = """const done = arguments[0];
 requestAnimationFrame(() => requestAnimationFrame(() => done(true)));"""
@@ -61,6 +64,11 @@ def picture(driver: Chrome) -> np.ndarray:
     return np.asarray(image)[:, BETWEEN].astype(int)
 
 
+def coloured(shown: np.ndarray, rgb: tuple[int, int, int]) -> int:
+    """Number of pixels of a colour that nothing else on the page has."""
+    return int((np.abs(shown - rgb).sum(axis=2) < 40).sum())
+
+
 def errors(driver: Chrome) -> list[str]:
     return [entry["message"] for entry in driver.get_log("browser") if entry["level"] == "SEVERE"]
 
@@ -71,6 +79,12 @@ def check_page(driver: Chrome, folder: Path) -> None:
     first = picture(driver)
     driver.save_screenshot(str(folder / "first.png"))
     assert (np.abs(first - first[2, 2]).sum(axis=2) > 30).mean() > 0.03, "the canvas is blank"
+    assert "distal_2 5.0 N" in driver.find_element("id", "facts").text
+    marks = (POINT, FORCE)
+    assert all(coloured(first, rgb) > 20 for rgb in marks), "no contact points, or no forces"
+    driver.find_element("id", "contacts-shown").click()
+    assert not any(coloured(picture(driver), rgb) for rgb in marks)
+    driver.find_element("id", "contacts-shown").click()
     driver.find_element("id", "next").click()
     assert wait_for(driver, f"{SHOWN} === 'can handoff 1'")
     second = picture(driver)
@@ -78,6 +92,7 @@ def check_page(driver: Chrome, folder: Path) -> None:
     for how in ("parts", "contact map"):
         driver.execute_script(CHOOSE, "colours", how)
         assert np.abs(picture(driver) - second).max() > 30, how
+        assert LEGENDS[how] in driver.find_element("id", "legend").text
     closed = picture(driver)
     driver.execute_script(MOVE, 0)
     assert np.abs(picture(driver) - closed).max() > 60

@@ -5,13 +5,14 @@ const content = JSON.parse(document.getElementById("content").textContent);
 const field = (id) => document.getElementById(id);
 const ANY = "any";
 const PART_COLOURS = ["#4e79a7", "#f28e2b", "#59a14f", "#e15759", "#b07aa1", "#edc948", "#76b7b2", "#ff9da7", "#9c755f"];
-// From never touched to touched by everybody.
+// From never touched to touched by most people.
 const HEAT = [[0, [0.82, 0.84, 0.86]], [0.25, [0.98, 0.85, 0.45]], [0.6, [0.93, 0.42, 0.13]], [1, [0.55, 0.02, 0.1]]];
 const FACT_NAMES = {
   Error: "energy", reason: "physics test", shape: "type by the rule", branch: "why this type", margin: "margin",
   penetration_m: "penetration", tries: "tries",
 };
-const METRES_PER_NEWTON = 0.001; // an arrow of 1 cm is 10 N
+const METRES_PER_NEWTON = 0.002; // an arrow of 1 cm is 5 N, as page.html says
+const LONGEST_ARROW = 0.1;
 const SECONDS = 2.5; // of a whole closing motion
 
 const renderer = new THREE.WebGLRenderer({ antialias: true, preserveDrawingBuffer: true });
@@ -26,6 +27,7 @@ const loaded = {};
 let grasps = [];
 let shown = null;
 let playing = null;
+let changed = true; // since the last picture
 
 // Arrays of a stored blob by their [offset, type, length].
 async function unpack(id) {
@@ -100,6 +102,7 @@ async function loadObject(name) {
 }
 
 function paint({ meshes, touched, array }) {
+  changed = true;
   const { parts, maps } = content.objects[shown.object];
   const how = field("colours").value;
   const mapped = how === "contact map" && touched && maps[shown.task];
@@ -111,16 +114,18 @@ function paint({ meshes, touched, array }) {
     mesh.material.metalness = named ? 0 : part.metallic * 0.5; // without surroundings to mirror, metal is black
     mesh.material.roughness = named ? 0.8 : part.roughness;
   });
+  // One scale for all tasks of an object.
+  const top = Object.values(maps).reduce((most, map) => array(map).reduce((a, b) => Math.max(a, b), most), 1);
   if (touched) touched.visible = Boolean(mapped);
   if (mapped) {
-    const colours = new Float32Array([...array(maps[shown.task])].flatMap((level) => heat(level / 255)));
+    const colours = new Float32Array([...array(maps[shown.task])].flatMap((level) => heat(level / top)));
     touched.geometry.setAttribute("color", new THREE.BufferAttribute(colours, 3));
   }
   const legend = field("legend");
   legend.replaceChildren();
   if (mapped) {
     const stops = HEAT.map(([at, rgb]) => `rgb(${rgb.map((v) => 255 * v ** (1 / 2.2))}) ${100 * at}%`);
-    legend.innerHTML = `share of people who touch it<div class="scale" style="background:linear-gradient(90deg,${stops})"></div>0 % <span style="float:right">100 %</span>`;
+    legend.innerHTML = `share of people who touch it<div class="scale" style="background:linear-gradient(90deg,${stops})"></div>0 % <span style="float:right">${Math.round((100 * top) / 255)} %</span>`;
   } else if (how === "parts") {
     parts.forEach((part, i) => {
       const row = document.createElement("div");
@@ -135,6 +140,7 @@ function paint({ meshes, touched, array }) {
 
 // Place the hand at a moment from 0 (open, drawn back) to 1 (the grasp).
 function pose(moment) {
+  changed = true;
   const { retreat, joints } = shown;
   const place = moment * (retreat.length - 1);
   const before = Math.min(Math.floor(place), retreat.length - 2);
@@ -163,10 +169,10 @@ function drawContacts() {
     contactGroup.add(ball);
     if (!shown.forces) return;
     const force = new THREE.Vector3(...shown.forces[i]);
-    const length = METRES_PER_NEWTON * force.length();
+    const length = Math.min(METRES_PER_NEWTON * force.length(), LONGEST_ARROW);
     if (length < 0.001) return;
-    const from = at.clone().addScaledVector(force, -METRES_PER_NEWTON);
-    const arrow = new THREE.ArrowHelper(force.normalize(), from, length, "#0057d9", Math.min(0.012, length), 0.006);
+    const from = at.clone().addScaledVector(force.normalize(), -length);
+    const arrow = new THREE.ArrowHelper(force, from, length, "#0057d9", 0.6 * length, Math.min(0.3 * length, 0.007));
     for (const part of [arrow.line, arrow.cone]) {
       part.material.depthTest = false;
       part.material.transparent = true;
@@ -184,7 +190,13 @@ function tell() {
     else if (key === "Error" || key === "margin") text = Number(value).toFixed(3);
     rows.push([FACT_NAMES[key], text]);
   }
-  const links = shown.links.map((name, i) => (shown.forces ? `${name} ${Math.hypot(...shown.forces[i]).toFixed(1)} N` : name));
+  const pressed = {};
+  shown.links.forEach((name, i) => (pressed[name] ??= []).push(shown.forces ? Math.hypot(...shown.forces[i]) : 0));
+  const links = Object.entries(pressed).map(([name, forces]) => {
+    const sum = forces.reduce((a, b) => a + b);
+    const where = forces.length > 1 ? ` at ${forces.length} points` : "";
+    return `${name}${shown.forces ? ` ${sum.toFixed(1)} N` : ""}${where}`;
+  });
   rows.push(["contacts", links.join(", ") || "none recorded"]);
   field("facts").replaceChildren(...rows.map((cells) => {
     const row = document.createElement("tr");
@@ -195,6 +207,7 @@ function tell() {
 
 // Look at object and hand from a side on which the hand hides little.
 function aim() {
+  changed = true;
   const box = new THREE.Box3().setFromObject(objectGroup);
   if (shown.pose) box.union(new THREE.Box3().setFromObject(handGroup));
   const centre = box.getCenter(new THREE.Vector3());
@@ -276,11 +289,12 @@ function choose(kept) {
 const step = (by) => show(grasps[(grasps.indexOf(shown) + by + grasps.length) % grasps.length]);
 
 function resize() {
+  changed = true;
   renderer.setPixelRatio(window.devicePixelRatio);
   renderer.setSize(window.innerWidth, window.innerHeight);
   camera.aspect = window.innerWidth / window.innerHeight;
   // The panel covers the left: the middle is that of what is left.
-  const covered = Math.min(312, window.innerWidth / 3);
+  const covered = Math.min(352, window.innerWidth / 3);
   camera.setViewOffset(window.innerWidth, window.innerHeight, -covered / 2, 0, window.innerWidth, window.innerHeight);
   camera.updateProjectionMatrix();
 }
@@ -291,9 +305,12 @@ function draw(now) {
     pose(Math.max(moment, 0));
     if (moment === 1) playing = null;
   }
-  controls.update();
-  lamp.position.copy(camera.position);
-  renderer.render(scene, camera);
+  // A page that nobody touches draws nothing.
+  if (controls.update() || changed) {
+    changed = false;
+    lamp.position.copy(camera.position);
+    renderer.render(scene, camera);
+  }
   requestAnimationFrame(draw);
 }
 
@@ -312,7 +329,10 @@ async function start() {
   field("previous").addEventListener("click", () => step(-1));
   field("next").addEventListener("click", () => step(1));
   field("colours").addEventListener("change", () => paint(loaded[shown.object]));
-  field("hand-shown").addEventListener("change", () => (handGroup.visible = field("hand-shown").checked));
+  field("hand-shown").addEventListener("change", () => {
+    handGroup.visible = field("hand-shown").checked;
+    changed = true;
+  });
   field("contacts-shown").addEventListener("change", () => pose(Number(field("moment").value)));
   field("play").addEventListener("click", () => (playing = performance.now()));
   field("moment").addEventListener("input", () => {

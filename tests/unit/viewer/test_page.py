@@ -8,13 +8,15 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import trimesh
 from tests.unit.viewer_data import HAND, write_dataset
 
 from grasptypes.__main__ import main
 from grasptypes.errors import InputError
-from grasptypes.objects.object_files import read_surface
+from grasptypes.objects.object_files import Surface, read_surface
 from grasptypes.viewer.grasp_views import dataset_views, load_views
 from grasptypes.viewer.page import page
+from grasptypes.viewer.shown_object import ShownPart, surface_parts
 
 
 @pytest.fixture(scope="module")
@@ -53,6 +55,25 @@ def test_meshes_and_maps_come_back_within_a_step(dataset: Path) -> None:
     heat = np.frombuffer(stores["object can"], kind, length, offset) / 255
     assert heat.min() < 0.05
     assert heat.max() > 0.95
+
+
+def test_a_surface_is_cut_into_parts_in_the_materials_beside_them() -> None:
+    box = trimesh.creation.box((0.1, 0.1, 0.1)).subdivide().subdivide()
+    index = (box.vertices[:, 2] > 0).astype(np.int16)
+    surface = Surface(box.vertices, box.faces, index, np.array(["base", "lid"]))
+    seen = [
+        ShownPart("", "", colour, 0.0, 0.5, trimesh.creation.box((0.1, 0.1, 0.05)))
+        for colour in ((1.0, 0.0, 0.0), (0.0, 0.0, 1.0))
+    ]
+    seen[0].mesh.apply_translation((0, 0, -0.025))
+    seen[1].mesh.apply_translation((0, 0, 0.025))
+    base, lid = surface_parts(surface, {"lid": "lid"}, seen)
+    assert [(part.name, part.role, part.colour) for part in (base, lid)] == [
+        ("base", "", (1.0, 0.0, 0.0)),
+        ("lid", "lid", (0.0, 0.0, 1.0)),
+    ]
+    assert base.mesh.area + lid.mesh.area == pytest.approx(box.area)
+    assert lid.mesh.vertices[:, 2].min() > -0.03
 
 
 def test_the_page_depends_on_its_data_only(dataset: Path) -> None:
