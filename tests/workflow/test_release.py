@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 import io
 import json
 import shutil
@@ -17,6 +18,7 @@ import pandas as pd
 import pyarrow.parquet as pq
 import pytest
 import trimesh
+import yaml
 import yourdfpy
 from PIL import Image
 from repository import Repository
@@ -24,6 +26,7 @@ from repository import Repository
 import grasptypes
 from grasptypes.errors import InputError
 from grasptypes.release.writing import with_parts, write_release
+from grasptypes.viewer.grasp_views import load_views
 
 OBJECTS = ["banana", "mug"]
 
@@ -92,7 +95,11 @@ def test_a_glb_has_a_node_for_every_part(release: Path, name: str) -> None:
     scene = trimesh.load_scene(release / "objects" / f"{name}.glb")
     assert set(scene.graph.nodes_geometry) == set(parts.node)
     named = dict(zip(parts.node, parts.part, strict=True))
-    assert {node: extras["part"] for node, extras in node_extras(scene).items()} == named
+    extras = node_extras(scene)
+    assert {node: said["part"] for node, said in extras.items()} == named
+    roles = dict(zip(parts.node, parts.role, strict=True))
+    assert {node: said.get("role", "") for node, said in extras.items()} == roles
+    assert any(roles.values())
     assert scene.extents.max() < 0.5
     assert scene.to_mesh().area == pytest.approx(parts.area_m2.sum(), rel=0.02)
     assert trimesh.load_mesh(release / "objects" / f"{name}_collision.obj").volume > 0
@@ -123,6 +130,49 @@ def test_images_are_those_of_the_tables(release: Path) -> None:
         with zipfile.ZipFile(release / "images/screenshots" / f"{name}.zip") as archive:
             images = {Path(image).name for image in grasps[grasps.Object == name].Image}
             assert set(archive.namelist()) == images
+
+
+def _read_images(path: Path) -> int:
+    with zipfile.ZipFile(path) as archive:
+        for member in archive.namelist():
+            Image.open(archive.open(member)).load()
+        return len(archive.namelist())
+
+
+def _read_text(path: Path) -> int:
+    return len(path.read_text(encoding="utf-8"))
+
+
+# A library of others for every kind of file, and what it finds.
+READERS = {
+    ".csv": lambda path: len(pd.read_csv(path)),
+    ".parquet": lambda path: pq.read_table(path).num_rows,
+    ".glb": lambda path: len(trimesh.load_scene(path).geometry),
+    ".obj": lambda path: len(trimesh.load_mesh(path).faces),
+    ".urdf": lambda path: len(yourdfpy.URDF.load(path).link_map),
+    ".yaml": lambda path: len(yaml.safe_load(path.read_text(encoding="utf-8"))),
+    ".json": lambda path: len(json.loads(path.read_text(encoding="utf-8"))),
+    ".zip": _read_images,
+    ".py": lambda path: len(ast.parse(path.read_text(encoding="utf-8")).body),
+    ".md": _read_text,
+    "": _read_text,
+}
+
+
+def test_libraries_of_others_read_every_file(release: Path) -> None:
+    files = [path for path in release.rglob("*") if path.is_file()]
+    assert {path.suffix for path in files} == set(READERS)
+    assert [path.name for path in files if READERS[path.suffix](path) == 0] == []
+
+
+def test_the_viewer_shows_it(release: Path) -> None:
+    views = load_views(str(release), None, None)
+    assert len(views.grasps) == 16
+    assert {part.name: part.role for part in views.objects["mug"].parts}["handle"] == "handle"
+    for grasp in views.grasps:
+        valid = grasp.facts["reason"] == "valid"
+        assert valid <= (len(grasp.contacts.links) > 0)
+        assert grasp.contacts.forces_n is not None
 
 
 def test_the_hand_is_a_urdf_with_its_meshes(release: Path) -> None:

@@ -24,11 +24,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "what",
         help="an object of the dataset, such as mug; a CSV of grasps beside its objects, such as "
-        "data/grasps.csv; or the folder of a plan",
+        "data/grasps.csv; or the folder of a plan or a release",
     )
     parser.add_argument(
         "--hand",
-        help="name of a hand, or folder with one (default: the plan's, or in params.yaml)",
+        help="name of a hand, or folder with one (default: that of the plan or release, or in params.yaml)",
     )
     parser.add_argument("--output", type=Path, help="HTML file to write instead of serving it")
     add_page(parser)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import NamedTuple
@@ -29,6 +29,7 @@ from grasptypes.viewer.shown_object import ShownObject, load_shown_object, surfa
 Array = NDArray[np.float64]
 
 GRASPS, PLAN, CONTACTS, CONTACT_MAP = "grasps.csv", "plan.json", "contacts.csv", "contact_map.npz"
+PARTS = "parts.csv"
 # Cells of a table that the viewer shows beside a grasp, if they are there.
 FACTS = ("Error", "reason", "shape", "branch", "margin", "penetration_m", "tries")
 
@@ -86,7 +87,7 @@ def load_views(what: str, folder: Path | None, hand: str | None) -> GraspViews:
         what: name of an object of the dataset; a CSV of grasps beside its objects; or a folder with
             one, such as a plan.
         folder: checkout with the dataset; default: the current folder.
-        hand: name or folder of the hand; default: that of the plan or of the parameters.
+        hand: name or folder of the hand; default: that of the plan, the release, or the parameters.
 
     Raises:
         InputError: there is no such thing, or its files cannot be read.
@@ -101,6 +102,8 @@ def load_views(what: str, folder: Path | None, hand: str | None) -> GraspViews:
         raise InputError(path, "", "no such file")
     if (path.parent / PLAN).is_file():
         return _of_plan(path.parent, hand)
+    if not hand and (released := sorted(path.parent.glob("hands/*/hand.yaml"))):
+        hand = str(released[0].parent)
     return dataset_views(path, _hand(hand, params, root))
 
 
@@ -118,7 +121,10 @@ def _of_object(name: str, root: Path, hand: Hand) -> GraspViews:
 
 
 def dataset_views(path: Path, hand: Hand, only: str | None = None) -> GraspViews:
-    """The views of a dataset's table beside the folders `objects`, `contact_maps` and `grasps`.
+    """The views of a dataset's table beside its objects: those of a checkout, or of a release.
+
+    Contact maps are in a checkout's folder `contact_maps`, contacts in its folder `grasps` or in a
+    release's contacts.csv.
 
     Args:
         only: the one object to show.
@@ -144,12 +150,17 @@ def dataset_views(path: Path, hand: Hand, only: str | None = None) -> GraspViews
     objects = {
         name: _dataset_object(path.parent, name, tasks) for name in dict.fromkeys(cells.Object)
     }
-    contacts = _recorded(path.parent, cells)
+    if (path.parent / CONTACTS).is_file():
+        contacts = _tested(path.parent / CONTACTS, "Index", number_column(path, cells.Index))
+    else:
+        contacts = _recorded(path.parent, cells)
     return GraspViews(only or "All grasps", hand, objects, _grasps(cells, states, ranks, contacts))
 
 
 def _dataset_object(data: Path, name: str, tasks: Sequence[str]) -> ShownObject:
-    folder = data / "objects" / name
+    folder, released = data / "objects" / name, data / "objects" / f"{name}.glb"
+    if released.is_file():
+        return load_shown_object(name, released, None, {}, _released_roles(data / PARTS, name))
     maps = {task: data / "contact_maps" / name / f"{task}.npz" for task in tasks}
     found = {task: read_contact_map(path) for task, path in maps.items() if path.is_file()}
     surface = folder / SURFACE
@@ -204,17 +215,21 @@ def _of_plan(folder: Path, hand_name: str | None) -> GraspViews:
         shown = replace(shown, parts=surface_parts(surface, found, shown.parts))
     ranks = number_column(folder / GRASPS, cells.Rank).astype(int).tolist()
     cells = cells.assign(Session=number_column(folder / GRASPS, cells.Session).astype(int))
-    contacts = _tested(folder / CONTACTS, cells.Session.tolist())
+    contacts = _tested(folder / CONTACTS, "Session", cells.Session)
     grasps = _grasps(cells, states, ranks, contacts)
     return GraspViews(f"{name}, {task}", hand, {name: shown}, grasps)
 
 
-def _tested(path: Path, sessions: Sequence[int]) -> list[ShownContacts]:
-    """The contacts that the physics test of a plan measured, by session."""
-    table = read_table(path, contact_schema("Session"))
+def _tested(path: Path, grasp: str, numbers: Iterable[float]) -> list[ShownContacts]:
+    """The contacts that the physics test measured, from the table of a plan or a release.
+
+    Args:
+        grasp: the column that numbers the grasps.
+    """
+    table = read_table(path, contact_schema(grasp))
     found = []
-    for session in sessions:
-        rows = table[table.Session == session]
+    for number in numbers:
+        rows = table[table[grasp] == number]
         forces = rows[[*NORMAL_COLUMNS]].to_numpy() * rows.force_n.to_numpy()[:, None]
         points = rows[[*POINT_COLUMNS]].to_numpy()
         found.append(ShownContacts(tuple(rows.link), points, forces))
@@ -247,6 +262,14 @@ def _grasps(
         )
         for index, (row, rank) in enumerate(zip(cells.itertuples(), ranks, strict=True))
     ]
+
+
+def _released_roles(path: Path, name: str) -> dict[str, str]:
+    """Role of each part of an object in a release's table of parts."""
+    with parsing(path, "is not the table of parts of a release"):
+        table = pd.read_csv(path, keep_default_na=False)
+        table = table[table.Object == name]
+        return dict(zip(table.part, table.role, strict=True))
 
 
 def _roles(path: Path) -> dict[str, str]:

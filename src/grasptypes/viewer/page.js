@@ -132,7 +132,7 @@ function paint({ meshes, touched, array }) {
       const key = document.createElement("span");
       key.className = "key";
       key.style.background = PART_COLOURS[i % PART_COLOURS.length];
-      row.append(key, part.role ? `${part.name} (${part.role})` : part.name);
+      row.append(key, part.role && part.role !== part.name ? `${part.name} (${part.role})` : part.name);
       legend.append(row);
     });
   }

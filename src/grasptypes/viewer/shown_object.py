@@ -103,7 +103,8 @@ def surface_parts(
         seen: the object in its materials; a part takes that which is nearest to most of it. Without
             any, parts are grey.
     """
-    owner = surface.part_index[surface.faces[:, 0]]
+    # That of two of its corners at least, if three parts do not meet there.
+    owner = np.median(surface.part_index[surface.faces], axis=1).astype(int)
     tree, material_at = None, np.empty(0, dtype=int)
     if seen:
         tree = cKDTree(np.concatenate([part.mesh.triangles_center for part in seen]))
