@@ -28,7 +28,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument(
         "--hand",
-        help="name of a hand, or folder with one (default: that of the plan or release, or in params.yaml)",
+        help="name of a hand, or folder with one (default: that of the plan or release, or in "
+        "params.yaml)",
     )
     parser.add_argument("--output", type=Path, help="HTML file to write instead of serving it")
     add_page(parser)
