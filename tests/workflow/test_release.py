@@ -134,7 +134,9 @@ def test_images_are_those_of_the_tables(release: Path) -> None:
 
 def hand_model(urdf: Path) -> yourdfpy.URDF:
     """The URDF with its meshes, which yourdfpy finds only if the path is a text."""
-    return yourdfpy.URDF.load(str(urdf), load_collision_meshes=True)
+    return yourdfpy.URDF.load(
+        str(urdf), load_collision_meshes=True, build_collision_scene_graph=True
+    )
 
 
 def _read_images(path: Path) -> int:

@@ -28,6 +28,7 @@ let grasps = [];
 let shown = null;
 let playing = null;
 let changed = true; // since the last picture
+let turned = false; // by the user, since the page chose where to look from
 
 // Arrays of a stored blob by their [offset, type, length].
 async function unpack(id) {
@@ -163,7 +164,7 @@ function drawContacts() {
   contactGroup.clear();
   shown.points.forEach((point, i) => {
     const at = new THREE.Vector3(...point);
-    const ball = new THREE.Mesh(new THREE.SphereGeometry(0.003, 16, 12), new THREE.MeshBasicMaterial({ color: "#00b050", depthTest: false, transparent: true }));
+    const ball = new THREE.Mesh(new THREE.SphereGeometry(0.0025, 16, 12), new THREE.MeshBasicMaterial({ color: "#00b050", depthTest: false, transparent: true }));
     ball.position.copy(at);
     ball.renderOrder = 1;
     contactGroup.add(ball);
@@ -208,12 +209,18 @@ function tell() {
 // Look at object and hand from a side on which the hand hides little.
 function aim() {
   changed = true;
+  turned = false;
   const box = new THREE.Box3().setFromObject(objectGroup);
   if (shown.pose) box.union(new THREE.Box3().setFromObject(handGroup));
   const centre = box.getCenter(new THREE.Vector3());
   const reach = 0.5 * box.getSize(new THREE.Vector3()).length() / Math.tan((camera.fov * Math.PI) / 360);
   const side = shown.pose ? new THREE.Vector3(shown.pose[0][0], shown.pose[1][0], shown.pose[2][0]).multiplyScalar(0.8) : new THREE.Vector3();
-  side.add(new THREE.Vector3(0.35, -0.6, 0.6)).normalize();
+  side.add(new THREE.Vector3(0.35, -0.6, 0.6));
+  if (shown.pose) {
+    const approach = new THREE.Vector3(shown.pose[0][2], shown.pose[1][2], shown.pose[2][2]);
+    side.addScaledVector(approach, Math.max(0, 0.2 - side.dot(approach))); // not from behind the hand
+  }
+  side.normalize();
   camera.position.copy(centre).addScaledVector(side, reach * Math.max(1, 1 / camera.aspect));
   controls.target.copy(centre);
   controls.update();
@@ -221,7 +228,7 @@ function aim() {
 
 // An object that nobody has grasped yet: its parts, and where people touch it for a task.
 async function showObject(object, task) {
-  const turned = !shown || shown.object !== object;
+  const other = !shown || shown.object !== object;
   shown = { object, task };
   const found = await loadObject(object);
   objectGroup.clear();
@@ -229,12 +236,12 @@ async function showObject(object, task) {
   handGroup.visible = contactGroup.visible = false;
   paint(found);
   scene.updateMatrixWorld(true);
-  if (turned) aim();
+  if (other) aim();
   document.body.dataset.shown = `${object} ${task}`;
 }
 
 async function show(grasp) {
-  const turned = !shown || shown.object !== grasp.object;
+  const other = !shown || shown.object !== grasp.object;
   shown = grasp;
   playing = null;
   const object = await loadObject(grasp.object);
@@ -250,7 +257,7 @@ async function show(grasp) {
   field("place").textContent = `${place + 1} of ${grasps.length}`;
   field("grasp").value = place;
   scene.updateMatrixWorld(true);
-  if (turned) aim();
+  if (other || !turned) aim();
   document.body.dataset.shown = `${grasp.object} ${grasp.task} ${grasp.session}`;
 }
 
@@ -320,6 +327,7 @@ async function start() {
   camera.up.set(0, 0, 1);
   scene.add(new THREE.HemisphereLight("#ffffff", "#8d949e", 1.6), lamp, objectGroup, handGroup, contactGroup);
   document.body.prepend(renderer.domElement);
+  controls.addEventListener("start", () => (turned = true));
   controls.enableDamping = true;
   controls.dampingFactor = 0.2;
   window.addEventListener("resize", resize);
