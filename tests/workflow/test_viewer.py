@@ -28,7 +28,7 @@ from grasptypes.viewer.page import page
 # Chromium draws without a graphics card, for a time that grows with the pixels.
 WINDOW_PX = (960, 640)
 # The canvas between the panel and the legend.
-BETWEEN = slice(320, 700)
+BETWEEN = slice(360, 700)
 
 pytestmark = pytest.mark.skipif(bool(missing_programs()), reason=missing_programs())
 
