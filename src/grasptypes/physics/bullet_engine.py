@@ -45,6 +45,7 @@ class BulletEngine:
         self._limits: dict[int, tuple[float, float, float]] = {}
         self._force: tuple[Array, Array] | None = None
         self._hand_id = self._object_id = -1
+        self._T_inertial_object = np.eye(4)
 
     def load(
         self, T_object_hand: Array, joint_positions: Array, world: Surroundings = NOMINAL
@@ -74,6 +75,8 @@ class BulletEngine:
         for link in (-1, *self._joints):
             pybullet.changeDynamics(hand, link, lateralFriction=friction, physicsClientId=client)
         self._hand_id, self._object_id = hand, thing
+        inertial = pybullet.getDynamicsInfo(thing, -1, physicsClientId=client)[3:5]
+        self._T_inertial_object = inverse(_matrix(*inertial))
 
     def _number_joints(self, hand: int) -> None:
         """Find Bullet's index of each joint, which is also that of its child link."""
@@ -227,12 +230,10 @@ class BulletEngine:
 
     def T_hand_object(self) -> Array:
         """(4, 4) object frame in the hand frame; Bullet itself reports the inertial frame."""
-        client, thing = self.client, self._object_id
-        position, orientation = pybullet.getBasePositionAndOrientation(
-            thing, physicsClientId=client
+        inertial = pybullet.getBasePositionAndOrientation(
+            self._object_id, physicsClientId=self.client
         )
-        inertial = pybullet.getDynamicsInfo(thing, -1, physicsClientId=client)[3:5]
-        return _matrix(position, orientation) @ inverse(_matrix(*inertial))
+        return _matrix(*inertial) @ self._T_inertial_object
 
     def contacts(self) -> list[Contact]:
         """Where the hand presses on the object."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from typing import NamedTuple
 
@@ -178,12 +179,12 @@ def bear(
     for look, intervals in enumerate(np.diff(looks).tolist(), start=1):
         run(engine, motors, intervals)
         after = engine.T_hand_object()
-        moved, turned = _difference(before, after, centre_m)
-        if lost := moved > settings.drop_distance_m or turned > settings.drop_rotation_rad:
+        if lost := _is_lost(before, after, centre_m, settings):
             break
         if look == len(looks) // 2:
             half = after
-    crept, _ = _difference(half, after, centre_m)
+    moved, crept = _shift(before, after, centre_m), _shift(half, after, centre_m)
+    turned = float(Rotation.from_matrix(before[:3, :3].T @ after[:3, :3]).magnitude())
     creep = np.inf if lost else crept / (time_s / 2.0)
     return Motion(lost, moved, turned, creep, after)
 
@@ -232,8 +233,16 @@ def _stop_fingers(engine: Engine, motors: Motors) -> None:
                 break
 
 
-def _difference(before: Array, after: Array, centre_m: Array) -> tuple[float, float]:
-    """Motion of a body's centre of mass (m) and its rotation (rad) between two poses."""
-    turned = Rotation.from_matrix(before[:3, :3].T @ after[:3, :3]).magnitude()
+def _is_lost(before: Array, after: Array, centre_m: Array, settings: PhysicsSettings) -> bool:
+    """Whether a body's centre of mass moved, or the body turned, too far between two poses."""
+    if _shift(before, after, centre_m) > settings.drop_distance_m:
+        return True
+    # The angle by the trace is quicker than by `Rotation`, but not exact if it is tiny.
+    cosine = (float(np.vdot(before[:3, :3], after[:3, :3])) - 1.0) / 2.0
+    return math.acos(min(max(cosine, -1.0), 1.0)) > settings.drop_rotation_rad
+
+
+def _shift(before: Array, after: Array, centre_m: Array) -> float:
+    """Motion of a body's centre of mass between two poses, metres."""
     change = after - before
-    return float(np.linalg.norm(change[:3, :3] @ centre_m + change[:3, 3])), float(turned)
+    return float(np.linalg.norm(change[:3, :3] @ centre_m + change[:3, 3]))

@@ -71,21 +71,29 @@ class Motors:
         self.stages = list(shown if stages is None else stages)
         """Number of stopped joints of each finger."""
         self._reached = positions.copy()
-        self._levers = tip_levers(hand, self.stages, positions)
+        self._set_command()
 
     def stop(self, finger: int, count: int) -> None:
         """From now on, the first `count` joints of a finger stay in place."""
         self.stages[finger] = count
-        self._levers = tip_levers(self.hand, self.stages, self._reached)
+        self._set_command()
 
     def drive(self, positions: Array) -> MotorCommand:
-        """The motors' command at joint positions (J,).
+        """The motors' command at joint positions (J,)."""
+        speeds, closes = self._command.speeds, self._closes
+        moves_on = np.where(speeds < 0.0, positions, np.maximum(self._reached, positions))
+        self._reached = np.where(closes, moves_on, self._reached)
+        reached = np.minimum(self._reached, self.hand.joint_limits[:, 1])
+        return self._command._replace(reached=reached)
+
+    def _set_command(self) -> None:
+        """Set what the motors do until the next joint stops.
 
         Joints that follow another one of their finger have no torque of their own.
         """
-        hand, motors = self.hand, self.hand.motors
-        speeds, moves = np.zeros(len(positions)), np.zeros(len(positions), dtype=bool)
-        follows = np.zeros(len(positions), dtype=bool)
+        hand, motors, count = self.hand, self.hand.motors, len(self._reached)
+        speeds, moves = np.zeros(count), np.zeros(count, dtype=bool)
+        follows = np.zeros(count, dtype=bool)
         for finger, stage in zip(hand.fingers, self.stages, strict=True):
             joints = list(finger.joints)
             if stage == len(joints):
@@ -96,14 +104,14 @@ class Motors:
             speeds[joints] = motors.closing_speed_rad_s * (finger.rates[stage] * share)
             moves[joints] = finger.rates[stage] != 0.0
             follows[joints[stage + 1 :]] = not hand.direct
-        moves_on = np.where(speeds < 0.0, positions, np.maximum(self._reached, positions))
-        self._reached = np.where(moves, moves_on, self._reached)
-        levers = np.where(follows & moves, 0.0, self._levers)
-        return MotorCommand(
+        levers = tip_levers(hand, self.stages, self._reached)
+        levers = np.where(follows & moves, 0.0, levers)
+        self._closes = moves
+        self._command = MotorCommand(
             speeds=speeds,
             closing_torques=np.where(moves, self._forces_n * levers, 0.0),
             passive_torques=np.maximum(motors.passive_force_n, self._forces_n) * levers,
-            reached=np.minimum(self._reached, hand.joint_limits[:, 1]),
+            reached=self._reached,
         )
 
 

@@ -55,7 +55,7 @@ class MujocoEngine:
         self._dof = np.array([model.joint(name).dofadr[0] for name in hand.joint_names])
         self._body = model.body(OBJECT).id
         links = {model.body(name).id: link for link, name in enumerate(hand.link_names)}
-        self._link_of_geom = [links.get(body, -1) for body in model.geom_bodyid.tolist()]
+        self._link_of_geom = np.array([links.get(body, -1) for body in model.geom_bodyid.tolist()])
 
     def load(
         self, T_object_hand: Array, joint_positions: Array, world: Surroundings = NOMINAL
@@ -139,7 +139,8 @@ class MujocoEngine:
 
     def presses(self, link: int) -> bool:
         """Whether a link presses on the object."""
-        return any(found == link for _, found, _ in self._pressing())
+        contacts = np.flatnonzero(self._touching_links() == link).tolist()
+        return any(self._force_n(contact) > 0.0 for contact in contacts)
 
     def joint_positions(self) -> Array:
         """(J,) rad, prismatic joints m."""
@@ -154,14 +155,17 @@ class MujocoEngine:
 
     def contacts(self) -> list[Contact]:
         """Where the hand presses on the object."""
-        T = inverse(self.T_hand_object())
+        T, links = inverse(self.T_hand_object()), self._touching_links()
         found = []
-        for contact, link, force_n in self._pressing():
+        for index in np.flatnonzero(links >= 0).tolist():
+            contact, force_n = self._data.contact[index], self._force_n(index)
+            if force_n <= 0.0:
+                continue
             # The normal points from the first geom to the second.
             sign = 1.0 if self._link_of_geom[contact.geom[0]] >= 0 else -1.0
             found.append(
                 Contact(
-                    link=link,
+                    link=int(links[index]),
                     point_m=T[:3, :3] @ contact.pos + T[:3, 3],
                     normal=T[:3, :3] @ (sign * contact.frame[:3]),
                     force_n=force_n,
@@ -169,19 +173,16 @@ class MujocoEngine:
             )
         return found
 
-    def _pressing(self) -> list[tuple[Any, int, float]]:
-        """Contacts of object and hand with the link and the force along the normal, N."""
-        model, data, force = self._model, self._data, np.zeros(6)
-        found = []
-        for index in range(data.ncon):
-            contact = data.contact[index]
-            first, second = (self._link_of_geom[geom] for geom in contact.geom)
-            if first >= 0 and second >= 0:  # two links
-                continue
-            mujoco.mj_contactForce(model, data, index, force)
-            if force[0] > 0.0:
-                found.append((contact, max(first, second), float(force[0])))
-        return found
+    def _touching_links(self) -> NDArray[np.int64]:
+        """(n,) the link of each of the engine's contacts with the object; -1 for the others."""
+        pairs = self._link_of_geom[self._data.contact.geom]
+        return np.where(pairs.min(axis=1) < 0, pairs.max(axis=1), -1)
+
+    def _force_n(self, contact: int) -> float:
+        """The force along a contact's normal."""
+        force = np.zeros(6)
+        mujoco.mj_contactForce(self._model, self._data, contact, force)
+        return float(force[0])
 
 
 def _model(hand: Hand, geometry: ObjectGeometry, settings: PhysicsSettings) -> Any:
