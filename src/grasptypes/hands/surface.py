@@ -46,6 +46,13 @@ def _united(link: Link) -> trimesh.Trimesh:
 
 
 @cache
+def link_shapes(hand: Hand) -> tuple[int, ...]:
+    """For each link, the index of the first one of the same shape."""
+    shapes = [tuple(part.vertices_m.tobytes() for part in link.parts) for link in hand.links]
+    return tuple(map(shapes.index, shapes))
+
+
+@cache
 def surface_points(hand: Hand, spacing_m: float) -> SurfacePoints:
     """Points on the surface of all links, no two of a link closer than `spacing_m`.
 
@@ -54,7 +61,9 @@ def surface_points(hand: Hand, spacing_m: float) -> SurfacePoints:
     """
     links, points, normals = [], [], []
     for index, link in enumerate(hand.links):
-        point, normal = _spread(link_meshes(hand)[index], link.name, spacing_m)
+        # Fingers of one shape carry the same points: their links' names differ in a number.
+        kind = re.sub(r"_\d+$", "", link.name)
+        point, normal = _spread(hand, link_shapes(hand)[index], kind, spacing_m)
         seen = ~_always_covered(hand, index, point)
         links.append(np.full(seen.sum(), index))
         points.append(point[seen])
@@ -62,11 +71,11 @@ def surface_points(hand: Hand, spacing_m: float) -> SurfacePoints:
     return SurfacePoints(np.concatenate(links), np.concatenate(points), np.concatenate(normals))
 
 
-def _spread(mesh: trimesh.Trimesh, name: str, spacing_m: float) -> tuple[Array, Array]:
-    """Poisson-disc points and normals of one link: (n, 3), (n, 3)."""
+@cache
+def _spread(hand: Hand, link: int, kind: str, spacing_m: float) -> tuple[Array, Array]:
+    """Poisson-disc points and normals of one link: (n, 3), (n, 3); drawn by its kind."""
+    mesh = link_meshes(hand)[link]
     count = int(CANDIDATES_PER_DISC * mesh.area / spacing_m**2)
-    # Fingers of one shape carry the same points: their links' names differ in a number.
-    kind = re.sub(r"_\d+$", "", name)
     seed = int(rng("hand_surface", kind).integers(2**31))
     candidates, faces = trimesh.sample.sample_surface(mesh, count, seed=seed)
     free = np.ones(count, dtype=bool)

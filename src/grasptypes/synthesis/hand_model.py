@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from grasptypes.hands.hand import Finger, Hand
-from grasptypes.hands.surface import link_meshes, surface_points
+from grasptypes.hands.surface import link_meshes, link_shapes, surface_points
 from grasptypes.objects.distance_grid import DistanceGrid
 from grasptypes.settings.synthesis import SynthesisSettings
 from grasptypes.synthesis.fields import Fields, fields
@@ -97,7 +97,7 @@ def hand_model(
     highest = np.array([mesh.bounds[1] for mesh in meshes])
     centres = (lowest + highest) / 2
     corners = [mesh.vertices - centre for mesh, centre in zip(meshes, centres, strict=True)]
-    grid_of_link, kinds = _kinds(hand)
+    grid_of_link, grids = _grids(hand, grid_spacing_m, range_m)
     base_of_link = np.full(len(hand.links), -1)
     for finger in hand.fingers:
         base_of_link[list(finger.links)] = finger.links[0]
@@ -110,17 +110,7 @@ def hand_model(
         radii=np.array([np.linalg.norm(corner, axis=1).max() for corner in corners]),
         levers=_levers(hand, points, links),
         grid_of_link=grid_of_link,
-        grids=fields(
-            [
-                DistanceGrid.from_mesh(
-                    np.asarray(meshes[link].vertices),
-                    np.asarray(meshes[link].faces),
-                    grid_spacing_m,
-                    range_m,
-                )
-                for link in kinds
-            ]
-        ),
+        grids=grids,
         chains=_chains(hand),
         base_of_link=base_of_link,
         is_thumb=is_thumb,
@@ -148,11 +138,18 @@ def sample_hand(hand: Hand, settings: SynthesisSettings) -> HandModels:
     )
 
 
-def _kinds(hand: Hand) -> tuple[Indices, list[int]]:
-    """For each link, the index of its shape, and for each shape, a link that has it."""
-    shapes = [tuple(part.vertices_m.tobytes() for part in link.parts) for link in hand.links]
-    distinct = list(dict.fromkeys(shapes))
-    return np.array([distinct.index(shape) for shape in shapes]), list(map(shapes.index, distinct))
+@cache
+def _grids(hand: Hand, spacing_m: float, range_m: float) -> tuple[Indices, Fields]:
+    """For each link, the index of its distance grid, and a grid of each shape."""
+    meshes = link_meshes(hand)
+    first, grid_of_link = np.unique(link_shapes(hand), return_inverse=True)
+    grids = [
+        DistanceGrid.from_mesh(
+            np.asarray(meshes[link].vertices), np.asarray(meshes[link].faces), spacing_m, range_m
+        )
+        for link in first
+    ]
+    return grid_of_link.astype(np.int64), fields(grids)
 
 
 def _are_parallel(hand: Hand, finger: Finger) -> bool:
