@@ -24,7 +24,8 @@ from grasptypes.exchange.records import (
     to_position_quaternion,
 )
 from grasptypes.files import write_bytes
-from grasptypes.hands.hand import Finger, Hand
+from grasptypes.hands.hand import Hand
+from grasptypes.hands.links import Finger
 
 Array = NDArray[np.float64]
 

@@ -8,7 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from grasptypes.hands.description import GRIPS
-from grasptypes.hands.hand import PALM, Finger, Hand, beyond
+from grasptypes.hands.hand import PALM, Hand, beyond
+from grasptypes.hands.links import Finger
 from grasptypes.hands.states import HandStates
 from grasptypes.hands.surface import depth_in_link, surface_points
 

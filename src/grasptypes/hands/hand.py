@@ -1,8 +1,7 @@
-"""A robot hand: links, joints, fingers, and batched forward kinematics.
+"""A robot hand, and its batched forward kinematics.
 
 The origin of a hand's frame is on its palm, +z is the palm normal (the approach), and thumbs are
-at -y. Each link frame is at the joint that carries the link and moves with it; z is the joint's
-axis. Positive motion closes a finger.
+at -y. Positive motion closes a finger.
 
 Links and joints are in this order: the palm; links that move with a preshape only; then the first
 closing link of every finger, the second of every finger, and so on. Joint i carries link i + 1.
@@ -12,103 +11,16 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from grasptypes.hands.description import ExchangeDescription, Grips, MotorDescription
+from grasptypes.hands.links import Finger, Joint, Link
 
 Array = NDArray[np.float64]
 PALM = 0
 """Index of the palm in `Hand.links`."""
-
-
-class ConvexPart(NamedTuple):
-    """A convex solid in the frame of its link: corners (n, 3) metres, triangles (m, 3)."""
-
-    name: str
-    vertices_m: Array
-    faces: NDArray[np.int64]
-
-
-class Visual(NamedTuple):
-    """The part of a link of one material: vertices (n, 3) m in its frame, triangles (m, 3)."""
-
-    name: str
-    material: str
-    rgba: tuple[float, float, float, float]
-    vertices_m: Array
-    faces: NDArray[np.int64]
-
-
-@dataclass(frozen=True, eq=False)
-class Link:
-    """A rigid body.
-
-    Attributes:
-        parts: what collides.
-        visuals: what is seen.
-        centre_of_mass_m: (3,) in the link's frame.
-        inertia_kg_m2: (3, 3) about the centre of mass, along the link's axes.
-        friction: Coulomb coefficient.
-    """
-
-    name: str
-    parts: tuple[ConvexPart, ...]
-    visuals: tuple[Visual, ...]
-    mass_kg: float
-    centre_of_mass_m: Array
-    inertia_kg_m2: Array
-    friction: float
-
-
-@dataclass(frozen=True, eq=False)
-class Joint:
-    """A joint about, or along, the z axis of its child's frame.
-
-    Attributes:
-        parent: index of a link.
-        T_parent_rest: (4, 4) the child's frame in the parent's at position zero, metres.
-        limits: lowest and highest position; rad, or m if prismatic.
-        effort: largest torque, N m, or force, N.
-        speed: rad/s or m/s.
-    """
-
-    name: str
-    parent: int
-    prismatic: bool
-    T_parent_rest: Array
-    limits: tuple[float, float]
-    effort: float
-    speed: float
-
-
-@dataclass(frozen=True, eq=False)
-class Finger:
-    """A chain that closes; see `description.FingerDescription`.
-
-    Attributes:
-        joints: indices of its closing joints, from the palm outwards.
-        open: (m,) positions from which they close.
-        rates: (m, m) row s: relative speeds after s joints have been stopped.
-        bend_rad: (m,) exterior angles at position zero.
-        tip_m: (3,) end of the last link, in its frame.
-    """
-
-    name: str
-    joints: tuple[int, ...]
-    open: Array
-    rates: Array
-    bend_rad: Array
-    half_thickness_m: float
-    tip_m: Array
-    thumb: bool
-
-    @property
-    def links(self) -> tuple[int, ...]:
-        """Indices of its closing links, from the palm outwards."""
-        return tuple(joint + 1 for joint in self.joints)
 
 
 @dataclass(frozen=True, eq=False)

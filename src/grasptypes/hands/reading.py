@@ -10,7 +10,6 @@ from pathlib import Path
 from typing import Any
 from xml.etree import ElementTree
 
-import manifold3d
 import numpy as np
 import trimesh
 from numpy.typing import NDArray
@@ -18,15 +17,13 @@ from numpy.typing import NDArray
 from grasptypes.errors import InputError, parsing
 from grasptypes.hands.description import FingerDescription, Grips, HandDescription
 from grasptypes.hands.folders import DESCRIPTION, GRIPS, URDF, hand_folder
-from grasptypes.hands.hand import ConvexPart, Finger, Hand, Joint, Link, Visual
+from grasptypes.hands.hand import Hand
+from grasptypes.hands.link_reading import LinkReader, link_frictions
+from grasptypes.hands.links import Finger, Joint
 from grasptypes.settings.base import MisplacedError
 from grasptypes.yaml_files import read_yaml
 
 Array = NDArray[np.float64]
-
-# Corners of round primitives: a cylinder of 10 mm radius is off by 0.1 mm.
-SEGMENTS = 24
-_GREY = (0.4, 0.4, 0.42, 1.0)
 
 
 def load_hand(name: str | Path, base: str | Path = ".") -> Hand:
@@ -63,18 +60,17 @@ class _Reader:
             raise InputError(self._path, "", "no such file")
         with parsing(self._path, "cannot be read as a URDF"):
             # yourdfpy repairs broken XML without a word, and does not read `contact`.
-            self._frictions = _frictions(ElementTree.parse(self._path).getroot())
+            frictions = link_frictions(ElementTree.parse(self._path).getroot())
             self._robot = yourdfpy.URDF.load(
                 str(self._path), build_scene_graph=False, load_meshes=False
             ).robot
         self._joints = {joint.name: joint for joint in self._robot.joints}
         self._above = {joint.child: joint for joint in self._robot.joints}
         self._urdf_links = {link.name: link for link in self._robot.links}
-        self._materials = {material.name: material for material in self._robot.materials}
+        self._link_reader = LinkReader(self._path, self._robot, frictions)
         self._palm = described.palm.link
         self._known(self._palm, self._urdf_links, "palm.link", "link")
         self._check_tree()
-        self._mesh_of: dict[str, Path] = {}
 
     def hand(self) -> Hand:
         """The hand; raises InputError."""
@@ -98,7 +94,7 @@ class _Reader:
         self._check_chains(joints, moving)
         merged = self._rigidly_attached(carried)
         links = [
-            self._link(name, index, merged[index], turned.get(index))
+            self._link_reader.read(name, merged[index], turned.get(index))
             for name, index in carried.items()
         ]
         numbers = {name: index for index, name in enumerate(moving)}
@@ -205,13 +201,10 @@ class _Reader:
             if chain[0].type != "fixed":
                 message = f"'{chain[0].name}' comes after '{name}' although it is nearer the palm"
                 raise InputError(self._folder / DESCRIPTION, "", message)
-        T = self._origin(chain[0])
+        T = _origin(chain[0])
         for following in chain[1:]:
-            T = T @ self._origin(following)
+            T = T @ _origin(following)
         return carried[chain[0].parent], T
-
-    def _origin(self, joint: Any) -> Array:
-        return np.eye(4) if joint.origin is None else np.asarray(joint.origin, dtype=np.float64)
 
     def _along_axis(self, name: str, T_rest: Array) -> tuple[Array, Array | None]:
         """The pose with z along the joint's axis, and its pose in the URDF's link (None: equal)."""
@@ -261,105 +254,10 @@ class _Reader:
             T, at = np.eye(4), name
             while at not in carried and at in self._above:
                 joint = self._above[at]
-                T, at = self._origin(joint) @ T, joint.parent
+                T, at = _origin(joint) @ T, joint.parent
             if at in carried:
                 merged[carried[at]].append((name, T))
         return merged
-
-    def _link(
-        self, name: str, index: int, members: list[tuple[str, Array]], T_urdf_link: Array | None
-    ) -> Link:
-        parts: list[ConvexPart] = []
-        visuals: list[Visual] = []
-        masses, centres, inertias = [], [], []
-        for member, T in members:
-            urdf_link = self._urdf_links[member]
-            T_here = T if T_urdf_link is None else np.linalg.inv(T_urdf_link) @ T
-            for number, shape in enumerate(urdf_link.collisions):
-                parts.append(self._part(member, number, shape, T_here))
-            for number, shape in enumerate(urdf_link.visuals):
-                visuals.append(self._visual(member, number, shape, T_here))
-            if urdf_link.inertial is not None and urdf_link.inertial.mass:
-                origin = urdf_link.inertial.origin
-                T_com = T_here @ (np.eye(4) if origin is None else np.asarray(origin))
-                if urdf_link.inertial.inertia is None or not np.isfinite(T_com).all():
-                    raise InputError(self._path, f"link {member}", "its inertial is incomplete")
-                if not np.isfinite(urdf_link.inertial.inertia).all():
-                    raise InputError(self._path, f"link {member}", "its inertia is not finite")
-                masses.append(float(urdf_link.inertial.mass))
-                centres.append(T_com[:3, 3])
-                inertias.append(T_com[:3, :3] @ urdf_link.inertial.inertia @ T_com[:3, :3].T)
-        if not masses or min(masses) <= 0:
-            raise InputError(self._path, f"link {name}", "has no mass, or a negative one")
-        if not parts:
-            raise InputError(self._path, f"link {name}", "has no collision shape")
-        mass = sum(masses)
-        centre = np.average(centres, axis=0, weights=masses) if len(masses) > 1 else centres[0]
-        inertia = np.zeros((3, 3))
-        for m, c, moment in zip(masses, centres, inertias, strict=True):
-            r = c - centre
-            inertia = inertia + moment + m * (r @ r * np.eye(3) - np.outer(r, r))
-        friction = self._frictions.get(name, 1.0)
-        return Link(name, tuple(parts), tuple(visuals), mass, centre, inertia, friction)
-
-    def _part(self, member: str, number: int, shape: Any, T: Array) -> ConvexPart:
-        mesh_name, vertices, faces = self._shape(member, shape, T, exact_hull=True)
-        return ConvexPart(mesh_name or f"{member}_{number}", vertices, faces)
-
-    def _visual(self, member: str, number: int, shape: Any, T: Array) -> Visual:
-        mesh_name, vertices, faces = self._shape(member, shape, T, exact_hull=False)
-        material = shape.material
-        known = self._materials.get(material.name) if material is not None else None
-        colour = next((m.color for m in (material, known) if m is not None and m.color), None)
-        rgba = tuple(map(float, colour.rgba)) if colour is not None else _GREY
-        name = mesh_name or f"{member}_{number}"
-        kind = material.name if material is not None and material.name else name
-        return Visual(name, kind, rgba, vertices, faces)  # type: ignore[arg-type]
-
-    def _shape(
-        self, member: str, shape: Any, T: Array, exact_hull: bool
-    ) -> tuple[str, Array, NDArray[np.int64]]:
-        """Name (of a mesh file), vertices and faces of a shape in its link's frame."""
-        geometry, name = shape.geometry, ""
-        if geometry.mesh is not None:
-            path = self._folder / geometry.mesh.filename
-            if not path.is_file():
-                raise InputError(
-                    self._path, f"link {member}", f"{geometry.mesh.filename}: no such file"
-                )
-            with parsing(path, "cannot be read as a mesh"):
-                mesh = trimesh.load_mesh(path, process=False, maintain_order=True)
-            if not len(mesh.faces):
-                raise InputError(path, "", "has no faces: a triangle mesh is needed")
-            scale = geometry.mesh.scale
-            vertices = np.asarray(mesh.vertices, dtype=np.float64)
-            faces = np.asarray(mesh.faces, dtype=np.int64)
-            if scale is not None:
-                vertices = vertices * np.asarray(scale)
-        else:
-            solid = self._primitive(member, geometry)
-            mesh64 = solid.to_mesh64()
-            vertices, faces = mesh64.vert_properties[:, :3], mesh64.tri_verts.astype(np.int64)
-        T_shape = T if shape.origin is None else T @ np.asarray(shape.origin)
-        if np.array_equal(T_shape, np.eye(4)) and geometry.mesh is not None:
-            # Links that share a mesh file share its name.
-            known = self._mesh_of.setdefault(path.stem, path)
-            name = path.stem if scale is None and known == path else ""
-        else:
-            vertices = vertices @ T_shape[:3, :3].T + T_shape[:3, 3]
-        if exact_hull:
-            vertices, faces = _convex(vertices, faces)
-        return name, vertices, faces
-
-    def _primitive(self, member: str, geometry: Any) -> manifold3d.Manifold:
-        if geometry.box is not None:
-            return manifold3d.Manifold.cube(tuple(map(float, geometry.box.size)), True)
-        if geometry.cylinder is not None:
-            radius, length = float(geometry.cylinder.radius), float(geometry.cylinder.length)
-            return manifold3d.Manifold.cylinder(length, radius, radius, SEGMENTS, True)
-        if geometry.sphere is not None:
-            return manifold3d.Manifold.sphere(float(geometry.sphere.radius), SEGMENTS)
-        raise InputError(self._path, f"link {member}", "has a shape of unknown kind")
 
     def _finger(
         self, name: str, described: FingerDescription, numbers: dict[str, int],
@@ -383,20 +281,5 @@ class _Reader:
             yield first, second
 
 
-def _convex(vertices: Array, faces: NDArray[np.int64]) -> tuple[Array, NDArray[np.int64]]:
-    """The hull of a solid's corners; unchanged if they are all on it and it is closed."""
-    hull = manifold3d.Manifold.hull_points(vertices)
-    mesh = hull.to_mesh64()
-    if len(mesh.vert_properties) == len(vertices) and len(mesh.tri_verts) == len(faces):
-        return vertices, faces
-    return mesh.vert_properties[:, :3], mesh.tri_verts.astype(np.int64)
-
-
-def _frictions(robot: ElementTree.Element) -> dict[str, float]:
-    """Friction of the links that state one."""
-    found = {}
-    for link in robot.findall("link"):
-        value = link.find("contact/lateral_friction")
-        if value is not None:
-            found[link.attrib["name"]] = float(value.attrib["value"])
-    return found
+def _origin(joint: Any) -> Array:
+    return np.eye(4) if joint.origin is None else np.asarray(joint.origin, dtype=np.float64)

@@ -10,7 +10,8 @@ import trimesh
 from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
-from grasptypes.hands.hand import Hand, Link
+from grasptypes.hands.hand import Hand
+from grasptypes.hands.links import Link
 from grasptypes.seeds import rng
 
 Array = NDArray[np.float64]

@@ -12,7 +12,8 @@ from numpy.typing import ArrayLike, NDArray
 from trimesh.transformations import euler_from_matrix
 
 from grasptypes.files import write_text
-from grasptypes.hands.hand import Hand, Joint, Link
+from grasptypes.hands.hand import Hand
+from grasptypes.hands.links import Joint, Link
 
 Array = NDArray[np.float64]
 Faces = NDArray[np.int64]

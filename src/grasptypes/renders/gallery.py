@@ -12,7 +12,8 @@ import trimesh
 from numpy.typing import NDArray
 
 from grasptypes.hands import configuration
-from grasptypes.hands.hand import Hand, Visual
+from grasptypes.hands.hand import Hand
+from grasptypes.hands.links import Visual
 from grasptypes.hands.states import HandStates
 from grasptypes.renders.contact_pictures import look_at
 from grasptypes.renders.gallery_views import best_azimuth, finger_points

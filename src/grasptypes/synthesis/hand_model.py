@@ -8,7 +8,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from grasptypes.hands.hand import Finger, Hand
+from grasptypes.hands.hand import Hand
+from grasptypes.hands.links import Finger
 from grasptypes.hands.surface import link_meshes, link_shapes, surface_points
 from grasptypes.objects.distance_grid import DistanceGrid
 from grasptypes.settings.synthesis import SynthesisSettings

@@ -7,7 +7,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from grasptypes.hands.hand import Finger, Hand
+from grasptypes.hands.hand import Hand
+from grasptypes.hands.links import Finger
 
 Array = NDArray[np.float64]
 
