@@ -28,8 +28,8 @@ from grasptypes.synthesis.fields import distances
 from grasptypes.synthesis.hand_model import sample_hand
 from grasptypes.synthesis.scene import GraspScene, grasp_scene
 from grasptypes.synthesis.search import search_session
+from grasptypes.synthesis.tester import GraspTester
 from grasptypes.synthesis.trials import (
-    GraspTester,
     SynthesisTask,
     demonstrations,
     synthesize_sessions,

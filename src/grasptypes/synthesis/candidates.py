@@ -14,7 +14,8 @@ from numpy.typing import NDArray
 
 from grasptypes.hands.states import HandStates
 from grasptypes.settings.synthesis import CandidateSettings, ClosingSettings
-from grasptypes.synthesis.closing import close_fingers, slide_in
+from grasptypes.synthesis.approach import slide_in
+from grasptypes.synthesis.closing import close_fingers
 from grasptypes.synthesis.scene import GraspScene
 
 Array = NDArray[np.float64]

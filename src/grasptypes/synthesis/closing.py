@@ -1,8 +1,4 @@
-"""Move open hands onto an object and close their fingers until they touch, in batches.
-
-Both motions advance in conservative steps: no point of the hand moves farther than its signed
-distance to the object, so no step can jump over a surface, however thin.
-"""
+"""Close the fingers of hands until they touch an object, in batches, in steps like `approach`."""
 
 from __future__ import annotations
 
@@ -12,35 +8,16 @@ from numpy.typing import NDArray
 from grasptypes.compiled import compiled
 from grasptypes.hands.states import HandStates
 from grasptypes.settings.synthesis import ClosingSettings
-from grasptypes.synthesis.fields import Field, distance, field_at
+from grasptypes.synthesis.approach import MAX_STEPS
+from grasptypes.synthesis.fields import Field, distance
 from grasptypes.synthesis.hand_model import HandModel
+from grasptypes.synthesis.posed_links import least_gap, moved, overlap
 from grasptypes.synthesis.scene import GraspScene
 
 Array = NDArray[np.float64]
 
-MAX_STEPS = 60
 # Bisections of a motion that ends in the hand itself: a thousandth of it remains.
 HALVINGS = 10
-
-
-def slide_in(
-    scene: GraspScene, T_object_hand: Array, preshape: Array, reach_m: Array, touch_m: float
-) -> Array:
-    """Move open hands along their approach (+z) until they touch or have moved `reach_m`.
-
-    Args:
-        T_object_hand: (n, 4, 4) hands in the object frame, clear of the object.
-        preshape: (n, P) preshapes of the fingers.
-        reach_m: (n,) maximum distance of each.
-        touch_m: distance between surfaces at which a link stops.
-
-    Returns:
-        (n,) distance moved, metres.
-    """
-    hand = scene.hand
-    poses = HandStates(hand, T_object_hand, hand.opened(preshape)).link_poses()
-    approach = np.ascontiguousarray(T_object_hand[:, :3, 2])
-    return _slide(scene.model, scene.field, poses, approach, reach_m, touch_m)
 
 
 def close_fingers(
@@ -68,91 +45,7 @@ def close_fingers(
     for row, finger in enumerate(hand.fingers):
         positions[:, list(finger.joints)] = closed[:, row, : len(finger.joints)]
     states = HandStates(hand, T_object_hand, positions)
-    return _centred(states) if hand.self_centring else states
-
-
-def _centred(states: HandStates) -> HandStates:
-    """Hands that have given way until their fingers, which slide together, are equally closed.
-
-    Each finger stays where it touches: the hand moves along its axis by what it closed too much.
-    """
-    hand, positions = states.hand, states.joint_positions.copy()
-    joints = [finger.joints[0] for finger in hand.fingers]
-    mean = positions[:, joints].mean(axis=1, keepdims=True)
-    axes = hand.link_poses(positions)[:, [joint + 1 for joint in joints]][..., :3, 2]
-    excess = positions[:, joints] - mean
-    shift = np.einsum("nf,nfi->ni", excess, axes) / len(joints)
-    positions[:, joints] = mean
-    T_object_hand = states.T_object_hand.copy()
-    T_object_hand[:, :3, 3] += np.einsum("nij,nj->ni", T_object_hand[:, :3, :3], shift)
-    return HandStates(hand, T_object_hand, positions)
-
-
-@compiled()
-def _slide(
-    model: HandModel, grid: Field, poses: Array, approach: Array, reach_m: Array, touch_m: float
-) -> Array:
-    travelled = np.zeros(len(poses))
-    gaps = np.empty(len(model.points))
-    for n in range(len(poses)):
-        dx, dy, dz = approach[n]
-        for link in range(len(model.radii)):
-            gaps[model.starts[link] : model.starts[link + 1]] = _least_gap(
-                model, grid, link, poses[n, link]
-            )
-        for _ in range(MAX_STEPS):
-            x, y, z = travelled[n] * dx, travelled[n] * dy, travelled[n] * dz
-            step = reach_m[n] - travelled[n]
-            for link in range(len(model.radii)):
-                for m in range(model.starts[link], model.starts[link + 1]):
-                    if gaps[m] <= touch_m or gaps[m] < step:
-                        px, py, pz = moved(poses[n, link], model.points, m)
-                        gaps[m] = distance(grid, px + x, py + y, pz + z)
-                        step = min(step, gaps[m])
-            travelled[n] += max(step, 0.0)
-            if step <= touch_m:
-                break
-            gaps -= step
-    return travelled
-
-
-@compiled()
-def _least_gap(model: HandModel, grid: Field, link: int, pose: Array) -> float:
-    """A lower bound on the distances of a link's points."""
-    x, y, z = moved(pose, model.centres, link)
-    return float(distance(grid, x, y, z) - model.radii[link])
-
-
-@compiled(inline=True)
-def moved(pose: Array, points: Array, row: int) -> tuple[float, float, float]:
-    """One of the points (n, 3), transformed by a pose (3+, 4)."""
-    x, y, z = points[row, 0], points[row, 1], points[row, 2]
-    return (
-        pose[0, 0] * x + pose[0, 1] * y + pose[0, 2] * z + pose[0, 3],
-        pose[1, 0] * x + pose[1, 1] * y + pose[1, 2] * z + pose[1, 3],
-        pose[2, 0] * x + pose[2, 1] * y + pose[2, 2] * z + pose[2, 3],
-    )
-
-
-@compiled()
-def overlap(model: HandModel, link: int, pose: Array, other: int, other_pose: Array) -> float:
-    """Depth of a link's deepest point in another link, 0 if they do not overlap."""
-    cx, cy, cz = moved(pose, model.centres, link)
-    ox, oy, oz = moved(other_pose, model.centres, other)
-    reach = model.radii[link] + model.radii[other]
-    if (cx - ox) ** 2 + (cy - oy) ** 2 + (cz - oz) ** 2 > reach * reach:
-        return 0.0
-    depth = 0.0
-    for index in range(model.starts[link], model.starts[link + 1]):
-        x, y, z = moved(pose, model.points, index)
-        if (x - ox) ** 2 + (y - oy) ** 2 + (z - oz) ** 2 > model.radii[other] ** 2:
-            continue
-        x, y, z = x - other_pose[0, 3], y - other_pose[1, 3], z - other_pose[2, 3]
-        bx = other_pose[0, 0] * x + other_pose[1, 0] * y + other_pose[2, 0] * z
-        by = other_pose[0, 1] * x + other_pose[1, 1] * y + other_pose[2, 1] * z
-        bz = other_pose[0, 2] * x + other_pose[1, 2] * y + other_pose[2, 2] * z
-        depth = max(depth, -distance(field_at(model.grids, model.grid_of_link[other]), bx, by, bz))
-    return depth
+    return states.centred() if hand.self_centring else states
 
 
 @compiled(inline=True)
@@ -212,8 +105,7 @@ def _close_finger(
     travel[:] = 0.0
     stage = 0
     for step_number in range(MAX_STEPS):
-        _set_positions(model, finger, travel, positions)
-        _set_poses(model, finger, T_object_base, positions, poses)
+        _place(model, finger, T_object_base, travel, positions, poses)
         if step_number == 0:
             _bound_gaps(model, grid, finger, poses, gaps)
         room = chains.limits[finger, stage, 1] - chains.open[finger, stage]
@@ -234,8 +126,7 @@ def _close_finger(
             continue
         travel[stage] += step
         _narrow_gaps(model, finger, stage, step, gaps)
-    _set_positions(model, finger, travel, positions)
-    _set_poses(model, finger, T_object_base, positions, poses)
+    _place(model, finger, T_object_base, travel, positions, poses)
     last: int = min(stage, count - 1)
     return last
 
@@ -252,16 +143,14 @@ def _leave_hand(
         free, whole = 0.0, travel[taken_back]
         for halving in range(HALVINGS):
             travel[taken_back] = (free + 0.5**halving) * whole if halving else 0.0
-            _set_positions(model, finger, travel, positions)
-            _set_poses(model, finger, T_object_base, positions, poses)
+            _place(model, finger, T_object_base, travel, positions, poses)
             if _depth_in_hand(model, finger, T_object_links, poses) <= self_depth_m:
                 free = travel[taken_back] / whole if whole > 0.0 else 0.0
             elif halving == 0:
                 break
         else:
             travel[taken_back] = free * whole
-            _set_positions(model, finger, travel, positions)
-            _set_poses(model, finger, T_object_base, positions, poses)
+            _place(model, finger, T_object_base, travel, positions, poses)
             return
 
 
@@ -293,7 +182,7 @@ def _bound_gaps(model: HandModel, grid: Field, finger: int, poses: Array, gaps: 
     """Start with one lower bound for all points of a link."""
     for place in range(model.chains.counts[finger]):
         link = model.chains.links[finger, place]
-        least = _least_gap(model, grid, link, poses[place])
+        least = least_gap(model, grid, link, poses[place])
         gaps[model.starts[link] : model.starts[link + 1]] = least
 
 
@@ -306,6 +195,16 @@ def _narrow_gaps(model: HandModel, finger: int, stage: int, step: float, gaps: A
         base = model.chains.base_levers[finger, stage, place]
         for m in range(model.starts[link], model.starts[link + 1]):
             gaps[m] -= step * (base + own * model.levers[m])
+
+
+@compiled()
+def _place(
+    model: HandModel, finger: int, T_object_base: Array, travel: Array, positions: Array,
+    poses: Array,
+) -> None:  # fmt: skip
+    """Set joint positions (M,) and poses (M, 3, 4) of a finger after the travel of each stage."""
+    _set_positions(model, finger, travel, positions)
+    _set_poses(model, finger, T_object_base, positions, poses)
 
 
 @compiled()

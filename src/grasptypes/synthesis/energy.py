@@ -16,9 +16,9 @@ from grasptypes.compiled import compiled
 from grasptypes.poses import inverse
 from grasptypes.settings.synthesis import EnergySettings
 from grasptypes.synthesis.candidates import Demonstration
-from grasptypes.synthesis.closing import moved, overlap
 from grasptypes.synthesis.fields import Field, distance, field_at, slope
 from grasptypes.synthesis.hand_model import HandModel
+from grasptypes.synthesis.posed_links import moved, overlap
 from grasptypes.synthesis.scene import GraspScene
 
 Array = NDArray[np.float64]

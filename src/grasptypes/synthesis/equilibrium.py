@@ -15,9 +15,9 @@ from numpy.typing import NDArray
 
 from grasptypes.compiled import compiled
 from grasptypes.settings.synthesis import EquilibriumSettings
-from grasptypes.synthesis.closing import moved
 from grasptypes.synthesis.fields import Field, distance, gradient
 from grasptypes.synthesis.hand_model import HandModel
+from grasptypes.synthesis.posed_links import moved
 from grasptypes.synthesis.scene import GraspScene
 
 Array = NDArray[np.float64]

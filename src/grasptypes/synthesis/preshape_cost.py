@@ -15,9 +15,9 @@ from grasptypes.hands.description import ShapeRanges
 from grasptypes.hands.hand import PALM
 from grasptypes.labels.grasp_type import enclosed_diameters
 from grasptypes.settings.synthesis import ShapeSettings
-from grasptypes.synthesis.closing import moved
 from grasptypes.synthesis.fields import Field, distance, gradient
 from grasptypes.synthesis.hand_model import HandModel
+from grasptypes.synthesis.posed_links import moved
 from grasptypes.synthesis.scene import GraspScene
 
 Array = NDArray[np.float64]

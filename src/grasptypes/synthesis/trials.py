@@ -19,51 +19,24 @@ from grasptypes.contact_maps.contact_map import ContactMap
 from grasptypes.hands import configuration
 from grasptypes.hands.hand import Hand
 from grasptypes.hands.states import HandStates
-from grasptypes.hands.surface import depth_in_hand
 from grasptypes.objects.object_geometry import ObjectGeometry
-from grasptypes.physics.engine import Contact
 from grasptypes.physics.engines import engine
-from grasptypes.physics.holding import HoldResult, hold_in_all
+from grasptypes.physics.holding import hold_in_all
 from grasptypes.physics.loads import TaskLoad
 from grasptypes.seeds import rng, seed
 from grasptypes.settings.physics import GraspTestSettings, ValiditySettings
 from grasptypes.settings.synthesis import SynthesisSettings
 from grasptypes.synthesis.candidates import Demonstration, pregrasp
-from grasptypes.synthesis.energy import closeness
 from grasptypes.synthesis.grasps import ENERGY_TERMS
 from grasptypes.synthesis.hand_model import sample_hand
 from grasptypes.synthesis.preshape_cost import preshape_cost
 from grasptypes.synthesis.scene import GraspScene, grasp_scene
 from grasptypes.synthesis.search import RankedGrasps, search_session
+from grasptypes.synthesis.tester import GraspTester, GraspTrial
 
 Array = NDArray[np.float64]
 
 LOGGER = logging.getLogger("grasptypes")
-
-
-class GraspTrial(NamedTuple):
-    """Result of trying one grasp."""
-
-    reason: str
-    """One of `grasps.REASONS`, or empty."""
-    T_object_hand: Array
-    """(4, 4): as held at the end, or as planned if not held."""
-    joint_positions: Array
-    """(J,) likewise."""
-    penetration_m: float
-    moved_m: float
-    turned_rad: float
-    contacts: list[Contact]
-    bears_load: bool
-    """Whether it held under the task's load."""
-    stages: tuple[int, ...]
-    """Number of stopped joints of each finger, as held at the end; none if not held."""
-    T_object_touching: Array
-    """(4, 4) the hand as planned: its fingers touch, and squeeze next."""
-    touching_positions: Array
-    """(J,) likewise."""
-    deviation: float = 0.0
-    """Deviation of that hand from the shape of the person's grip, see `preshape_cost`."""
 
 
 class SynthesisTask(NamedTuple):
@@ -155,82 +128,6 @@ def demonstrations(contact_map: ContactMap) -> Iterator[Demonstration]:
         )
 
 
-class GraspTester:
-    """Checks grasps geometrically, and tests those without a flaw in physics.
-
-    Args:
-        scene: scene with the fine hand.
-        hold: the physics test, of a pose (4, 4) and joint positions (J,).
-    """
-
-    def __init__(
-        self,
-        scene: GraspScene,
-        hold: Callable[[Array, Array], HoldResult],
-        validity: ValiditySettings,
-    ) -> None:
-        self.scene = scene
-        self.hold = hold
-        self.validity = validity
-
-    def try_grasp(self, T_object_hand: Array, joint_positions: Array) -> GraspTrial:
-        """Check a grasp as planned; if it has no flaw, test it, and check it as held."""
-        hand = self.scene.hand
-        reason, depth = self._flaw(T_object_hand, joint_positions)
-        touching = T_object_hand, joint_positions
-        none = (0,) * len(hand.fingers)
-        planned = GraspTrial(reason, *touching, depth, 0.0, 0.0, [], False, none, *touching)
-        if reason:
-            return planned
-        held = self.hold(T_object_hand, joint_positions)
-        moved = held.moved_m, held.turned_rad
-        if held.dropped:
-            return planned._replace(reason="dropped", moved_m=moved[0], turned_rad=moved[1])
-        # One motor moves all joints of a preshape, but the simulation has one each.
-        shared = hand.preshaped(hand.preshape_of(held.joint_positions))
-        closing = [joint for finger in hand.fingers for joint in finger.joints]
-        shared[closing] = held.joint_positions[closing]
-        positions = np.clip(shared, *hand.joint_limits.T)
-        reason, depth = self._flaw(held.T_object_hand, positions)
-        links = {contact.link for contact in held.contacts}
-        if self._beyond_limits(held.joint_positions):
-            reason = "joint_limit"
-        elif not reason and len(links) < self.validity.min_links:
-            reason = "no_contact"
-        state = held.T_object_hand, positions, depth, *moved, held.contacts
-        return GraspTrial(reason, *state, held.bears_load, held.stages, *touching)
-
-    def _flaw(self, T_object_hand: Array, positions: Array) -> tuple[str, float]:
-        """Geometric flaw of a pose, and penetration depth of hand and object.
-
-        Both the hand's points in the object and the object's points in the hand are checked,
-        because a thin wall can cut into a link between the points of either.
-        """
-        hand = self.scene.hand
-        poses = T_object_hand @ hand.link_poses(positions)
-        close = closeness(self.scene, poses[None])
-        in_hand = depth_in_hand(hand, self.scene.surface_m, poses)
-        depth = max(float(close.penetration_m[0]), in_hand)
-        if self._beyond_limits(positions):
-            return "joint_limit", depth
-        if close.self_depth_m[0] > self.validity.max_depth_m:
-            return "self_collision", depth
-        if depth > self.validity.max_depth_m:
-            return "penetrates", depth
-        touching = close.gaps_m[0, list(hand.finger_links)] <= self.validity.touch_m
-        return ("" if touching.any() else "no_contact"), depth
-
-    def _beyond_limits(self, positions: Array) -> bool:
-        hand, validity = self.scene.hand, self.validity
-        beyond = hand.beyond_limits(
-            positions, validity.limit_tolerance_rad, validity.limit_tolerance_m
-        )
-        tolerance = np.where(
-            hand.prismatic_joints, validity.lag_tolerance_m, validity.lag_tolerance_rad
-        )
-        return bool(beyond.any() or (hand.lag(positions) > tolerance).any())
-
-
 def _until_kept(
     ranked: RankedGrasps,
     tester: GraspTester,
@@ -263,6 +160,7 @@ def _best(trials: Sequence[GraspTrial], kept: float) -> int:
     valid = [rank for rank, trial in enumerate(trials) if not trial.reason]
 
     def shortcomings(rank: int) -> tuple[float, bool]:
+        """What makes a trial worse, the more important first."""
         trial = trials[rank]
         return max(trial.deviation, kept), not trial.bears_load
 

@@ -6,7 +6,8 @@ from synthesis_cases import CLOSING, RADIUS_M, TOUCH_M, closed, palm_at, scene_o
 from tests.unit.barrett import BARRETT, COUPLING
 
 from grasptypes.hands.reading import load_hand
-from grasptypes.synthesis.closing import close_fingers, slide_in
+from grasptypes.synthesis.approach import slide_in
+from grasptypes.synthesis.closing import close_fingers
 from grasptypes.synthesis.energy import closeness
 from grasptypes.synthesis.hand_model import hand_model
 

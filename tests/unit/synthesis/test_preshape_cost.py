@@ -5,7 +5,7 @@ from tests.unit.barrett import BARRETT
 
 from grasptypes.hands.description import ShapeRanges
 from grasptypes.settings.synthesis import ShapeSettings
-from grasptypes.synthesis.closing import slide_in
+from grasptypes.synthesis.approach import slide_in
 from grasptypes.synthesis.preshape_cost import preshape_cost
 
 SETTINGS = ShapeSettings(reach_m=0.025, closing_weight=3.0, weight=1.0, kept=0.2)

@@ -17,7 +17,8 @@ from grasptypes.physics.engine import Contact
 from grasptypes.physics.holding import HoldResult
 from grasptypes.synthesis.energy import closeness
 from grasptypes.synthesis.grasps import ATTEMPT_SCHEMA, GRASP_SCHEMA
-from grasptypes.synthesis.trials import GraspTester, SynthesisTask, synthesize_sessions
+from grasptypes.synthesis.tester import GraspTester
+from grasptypes.synthesis.trials import SynthesisTask, synthesize_sessions
 from grasptypes.tables import read_table, write_table
 
 VALIDITY = PARAMS.physics.validity
