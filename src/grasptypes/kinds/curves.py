@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 
 from grasptypes.kinds import lofts, sections
-from grasptypes.kinds.description import Lobes, Section
+from grasptypes.kinds.solid_description import Lobes, Section
 
 Curve = NDArray[np.float64]
 

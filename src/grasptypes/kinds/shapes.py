@@ -8,8 +8,9 @@ import numpy as np
 from manifold3d import CrossSection, FillRule, JoinType, Manifold, OpType
 from numpy.typing import NDArray
 
-from grasptypes.kinds import description, lofts, sections
+from grasptypes.kinds import lofts, sections, solid_description
 from grasptypes.kinds.curves import curve, furrow_factors, outline, round_samples
+from grasptypes.kinds.sweeps import sweep
 from grasptypes.objects import solids
 from grasptypes.settings.base import MisplacedError
 
@@ -20,12 +21,12 @@ Shapes = Mapping[str, Manifold]
 # of its axes.
 _ONTO = {"x": (0.0, 90.0, 0.0), "y": (-90.0, 0.0, 0.0), "z": (0.0, 0.0, 0.0)}
 _PLANE_ONTO = {"x": (90.0, 0.0, 90.0), "y": (90.0, 0.0, 0.0), "z": (0.0, 0.0, 0.0)}
-COIL_STEPS, SCALE_SAMPLES = 24, 17
+COIL_STEPS = 24
 # A nanometre: far above rounding, far below anything that is modelled.
 ROUNDED_DIGITS = 9
 
 
-def union(described: Sequence[description.Solid], shapes: Shapes, key: str) -> Manifold:
+def union(described: Sequence[solid_description.Solid], shapes: Shapes, key: str) -> Manifold:
     """The union of evaluated solids.
 
     Raises:
@@ -35,9 +36,9 @@ def union(described: Sequence[description.Solid], shapes: Shapes, key: str) -> M
     return Manifold.batch_boolean(built, OpType.Add) if len(built) > 1 else built[0]
 
 
-def build(solid: description.Solid, shapes: Shapes, key: str) -> Manifold:
-    """One evaluated solid, in the order that :class:`description.Solid` states."""
-    name = next(name for name in description.SHAPES if getattr(solid, name) is not None)
+def build(solid: solid_description.Solid, shapes: Shapes, key: str) -> Manifold:
+    """One evaluated solid, in the order that :class:`solid_description.Solid` states."""
+    name = next(name for name in solid_description.SHAPES if getattr(solid, name) is not None)
     try:
         made = _make(name, solid, shapes, f"{key}.{name}")
     except (ValueError, IndexError) as error:
@@ -66,7 +67,7 @@ def between(solid: Manifold, axis: str, low_m: float, high_m: float) -> Manifold
     return inside.warp_batch(lambda points: np.round(points, ROUNDED_DIGITS))
 
 
-def _copies(made: Manifold, solid: description.Solid) -> Manifold:
+def _copies(made: Manifold, solid: solid_description.Solid) -> Manifold:
     if solid.row:
         step = np.asarray(solid.row.step)
         made = _all([made.translate(tuple(step * number)) for number in range(solid.row.count)])
@@ -84,7 +85,7 @@ def _all(parts: Sequence[Manifold]) -> Manifold:
     return Manifold.batch_boolean(list(parts), OpType.Add) if len(parts) > 1 else parts[0]
 
 
-def _make(name: str, solid: description.Solid, shapes: Shapes, key: str) -> Manifold:
+def _make(name: str, solid: solid_description.Solid, shapes: Shapes, key: str) -> Manifold:
     if name == "shape":
         if solid.shape not in shapes:
             known = ", ".join(shapes) or "none"
@@ -103,7 +104,7 @@ def _make(name: str, solid: description.Solid, shapes: Shapes, key: str) -> Mani
         return solids.box(size, min(solid.box.radius, 0.4999 * min(size)))
     makers = {
         "cylinder": _cylinder, "torus": _torus, "turned": _turned, "extruded": _extruded,
-        "swept": _swept, "lofted": _lofted, "coil": _coil, "duct": _duct,
+        "swept": sweep, "lofted": _lofted, "coil": _coil, "duct": _duct,
     }  # fmt: skip
     made: Manifold = makers[name](getattr(solid, name))  # type: ignore[operator]
     if name in ("swept", "lofted", "duct"):
@@ -128,21 +129,21 @@ def _rise(between: Sequence[float]) -> tuple[float, float]:
     return low, high
 
 
-def _cylinder(given: description.Cylinder) -> Manifold:
+def _cylinder(given: solid_description.Cylinder) -> Manifold:
     low, high = _rise(given.between)
     top = given.radius if given.top_radius is None else given.top_radius
     made = Manifold.cylinder(high - low, given.radius, top, round_samples(max(given.radius, top)))
     return made.translate((0.0, 0.0, low))
 
 
-def _torus(given: description.Torus) -> Manifold:
+def _torus(given: solid_description.Torus) -> Manifold:
     tube = sections.circle(given.tube_radius, round_samples(given.tube_radius))
     segments = round_samples(given.ring_radius)
     ring = CrossSection([tube + [given.ring_radius, 0.0]], FillRule.NonZero)
     return ring.revolve(segments, min(given.angle, 360.0))
 
 
-def _turned(given: description.Turned) -> Manifold:
+def _turned(given: solid_description.Turned) -> Manifold:
     profile = curve(given.profile, given.smooth)
     if (profile[:, 0] < -1e-9).any():
         raise ValueError(f"the profile reaches a radius of {profile[:, 0].min():g}, below 0")
@@ -165,7 +166,7 @@ def _hollow(profile: Array, wall_m: float) -> CrossSection:
     return whole.offset(-wall_m, JoinType.Round, 2.0, 32)
 
 
-def _furrows(lobes: description.Lobes) -> Callable[[Array], Array]:
+def _furrows(lobes: solid_description.Lobes) -> Callable[[Array], Array]:
     """The map of points (N, 3) that presses furrows into a turned body."""
 
     def warp(points: Array) -> Array:
@@ -180,7 +181,7 @@ def _furrows(lobes: description.Lobes) -> Callable[[Array], Array]:
     return warp
 
 
-def _extruded(given: description.Extruded) -> Manifold:
+def _extruded(given: solid_description.Extruded) -> Manifold:
     low, high = _rise(given.between)
     polygon, bevel = outline(given.section), given.bevel
     if bevel > 0 and not given.holes:
@@ -192,63 +193,7 @@ def _extruded(given: description.Extruded) -> Manifold:
     return made.translate((0.0, 0.0, low))
 
 
-def _swept(given: description.Swept) -> Manifold:
-    path = curve(given.path, given.smooth, given.closed, dimensions=3)
-    share = np.linspace(0, 1, len(path))
-    scales = np.ones((len(path), 2))
-    if given.scales is not None:
-        length = np.concatenate([[0], np.cumsum(np.linalg.norm(np.diff(path, axis=0), axis=1))])
-        share = length / length[-1]
-        rows = [(at, *sizes) for at, *sizes in given.scales]
-        table = np.array([(row[0], row[1], row[-1]) for row in rows])
-        extra = table[(table[:, 0] > 0) & (table[:, 0] < 1), 0]
-        extra = np.concatenate([extra, np.linspace(table[0, 0], table[-1, 0], SCALE_SAMPLES)])
-        finer = np.unique(np.concatenate([share, extra]))
-        path = np.column_stack([np.interp(finer, share, path[:, axis]) for axis in range(3)])
-        scales = sections.monotone_curve(
-            table[:, 0], table[:, 1:], np.clip(finer, *table[[0, -1], 0])
-        )
-    figure = outline(given.section)
-    right, above = _frames(path, given.up, given.closed)
-    flat = figure[None] * scales[:, None]
-    rings = path[:, None] + flat[..., :1] * right[:, None] + flat[..., 1:] * above[:, None]
-    return _closed_loft(rings) if given.closed else solids.loft(rings)
-
-
-def _frames(path: Array, up: Sequence[float] | None, closed: bool) -> tuple[Array, Array]:
-    """Unit vectors (K, 3) of a section's axes along a path."""
-    if closed:
-        tangents = np.roll(path, -1, axis=0) - np.roll(path, 1, axis=0)
-    else:
-        tangents = np.gradient(path, axis=0)
-    tangents /= np.linalg.norm(tangents, axis=1, keepdims=True)
-    if up is not None:
-        right = np.cross(np.asarray(up, dtype=np.float64), tangents)
-        right /= np.linalg.norm(right, axis=1, keepdims=True)
-        return right, np.cross(tangents, right)
-    # Each frame is the one before it, turned as the tangent turns (no twist).
-    right = np.empty_like(path)
-    start = np.eye(3)[np.argmin(np.abs(tangents[0]))]
-    right[0] = start - tangents[0] * (start @ tangents[0])
-    for index in range(1, len(path)):
-        right[index] = right[index - 1] - tangents[index] * (right[index - 1] @ tangents[index])
-    right /= np.linalg.norm(right, axis=1, keepdims=True)
-    return right, np.cross(tangents, right)
-
-
-def _closed_loft(rings: Array) -> Manifold:
-    """Skin rings (K, N, 3), the last joined to the first."""
-    count, size = rings.shape[:2]
-    here = np.arange(count)[:, None] * size + np.arange(size)
-    right = np.arange(count)[:, None] * size + (np.arange(size) + 1) % size
-    ahead, corner = np.roll(here, -1, axis=0), np.roll(right, -1, axis=0)
-    faces = np.concatenate(
-        [np.stack([here, right, corner], -1), np.stack([here, corner, ahead], -1)]
-    )
-    return solids.from_mesh(rings.reshape(-1, 3), faces.reshape(-1, 3))
-
-
-def _lofted(given: description.Lofted) -> Manifold:
+def _lofted(given: solid_description.Lofted) -> Manifold:
     along, *names = given.columns
     rows = np.asarray(given.rows, dtype=np.float64)
     if (np.diff(rows[:, 0]) <= 0).any():
@@ -279,7 +224,7 @@ def _lofted(given: description.Lofted) -> Manifold:
 
 
 def _loft_section(
-    given: description.Lofted, exponent: float, samples: int, half_m: tuple[float, float]
+    given: solid_description.Lofted, exponent: float, samples: int, half_m: tuple[float, float]
 ) -> Array:
     """A section (N, 2), centred on the origin, with the given half widths."""
     if given.section is not None:
@@ -290,7 +235,7 @@ def _loft_section(
     return lofts.crowned_section(half_m[0], -half_m[1], half_m[1], exponent, top_m, bottom_m)
 
 
-def _duct(given: description.Duct) -> Manifold:
+def _duct(given: solid_description.Duct) -> Manifold:
     rows = sections.smooth_curve(given.rows)
     low, high = sections.in_xz(rows[:, :2]), sections.in_xz(rows[:, 2:4])
     circle, across = sections.circle(1.0, 40), np.outer(rows[:, 4], [0.0, 1.0, 0.0])
@@ -300,7 +245,7 @@ def _duct(given: description.Duct) -> Manifold:
     )
 
 
-def _coil(given: description.Coil) -> Manifold:
+def _coil(given: solid_description.Coil) -> Manifold:
     low, high = _rise(given.between)
     top = given.radius if given.top_radius is None else given.top_radius
     count = int(COIL_STEPS * given.turns) + 1

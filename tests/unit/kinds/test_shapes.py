@@ -5,7 +5,7 @@ import pytest
 
 from grasptypes.kinds import shapes
 from grasptypes.kinds.curves import curve
-from grasptypes.kinds.description import Solid
+from grasptypes.kinds.solid_description import Solid
 from grasptypes.settings.base import MisplacedError
 
 
