@@ -7,7 +7,7 @@ import pandas as pd
 from grasptypes.jobs import job
 from grasptypes.labels.label_pictures import save_figure
 from grasptypes.predictors.scoring import METRIC_SCHEMA
-from grasptypes.reports.figures import draw_folds
+from grasptypes.reports.training_figures import draw_folds
 from grasptypes.tables import read_table
 
 

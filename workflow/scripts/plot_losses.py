@@ -5,7 +5,7 @@ from collections.abc import Mapping
 from grasptypes.jobs import job
 from grasptypes.labels.label_pictures import save_figure
 from grasptypes.predictors.scoring import CURVE_SCHEMA
-from grasptypes.reports.figures import draw_losses
+from grasptypes.reports.training_figures import draw_losses
 from grasptypes.tables import read_table
 
 

@@ -14,7 +14,7 @@ from grasptypes.predictors.generalisation import (
     describe,
     summarize,
 )
-from grasptypes.reports.figures import draw_generalisation
+from grasptypes.reports.generalisation_figure import draw_generalisation
 from grasptypes.tables import read_table, write_table
 
 

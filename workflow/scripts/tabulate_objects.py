@@ -9,7 +9,7 @@ from grasptypes.labels.label_pictures import save_figure
 from grasptypes.labels.samples import read_samples
 from grasptypes.predictors.scoring import METRIC_SCHEMA, PREDICTION_SCHEMA
 from grasptypes.reports.breakdown import KNOWN, OBJECT_SCHEMA, UNSEEN, by_left_out_object, by_object
-from grasptypes.reports.figures import draw_objects
+from grasptypes.reports.breakdown_figures import draw_objects
 from grasptypes.tables import read_table, write_table
 
 

@@ -9,9 +9,9 @@ from grasptypes.jobs import job
 from grasptypes.labels.label_pictures import save_figure
 from grasptypes.labels.samples import read_samples
 from grasptypes.predictors.scoring import METRIC_SCHEMA
-from grasptypes.reports.figures import draw_table
 from grasptypes.reports.result_text import markdown
 from grasptypes.reports.results import RESULT_SCHEMA, tabulate
+from grasptypes.reports.table_figure import draw_table
 from grasptypes.tables import read_table, write_table
 
 

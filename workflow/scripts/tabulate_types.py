@@ -9,7 +9,7 @@ from grasptypes.labels.label_pictures import save_figure
 from grasptypes.labels.samples import read_samples
 from grasptypes.predictors.scoring import PREDICTION_SCHEMA
 from grasptypes.reports.breakdown import TYPE_SCHEMA, by_type
-from grasptypes.reports.figures import draw_types
+from grasptypes.reports.breakdown_figures import draw_types
 from grasptypes.tables import read_table, write_table
 
 

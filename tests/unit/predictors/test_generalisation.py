@@ -17,7 +17,7 @@ from grasptypes.predictors.generalisation import (
 )
 from grasptypes.predictors.members import members_by_object
 from grasptypes.predictors.scoring import METRIC_SCHEMA
-from grasptypes.reports.figures import draw_generalisation
+from grasptypes.reports.generalisation_figure import draw_generalisation
 from grasptypes.settings.predictors import VariantTrial
 
 VARIANTS = {

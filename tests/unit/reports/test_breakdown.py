@@ -16,7 +16,7 @@ from grasptypes.reports.breakdown import (
     by_object,
     by_type,
 )
-from grasptypes.reports.figures import draw_objects, draw_types
+from grasptypes.reports.breakdown_figures import draw_objects, draw_types
 
 
 def samples() -> pd.DataFrame:

@@ -5,8 +5,10 @@ import pandas as pd
 import pytest
 
 from grasptypes.predictors.scoring import SHORT
-from grasptypes.reports.figures import CONSTANT_LABEL, draw_folds, draw_losses, draw_table
+from grasptypes.reports.figures import CONSTANT_LABEL
 from grasptypes.reports.results import PAPER, paper_figures
+from grasptypes.reports.table_figure import draw_table
+from grasptypes.reports.training_figures import draw_folds, draw_losses
 
 
 def results(paper):
