@@ -8,8 +8,10 @@ from pathlib import Path
 from snakemake.utils import min_version
 
 min_version("9.17")
+# The folder of this file, also where another workflow uses it as a module.
+ROOT = workflow.current_basedir.get_path_or_uri(secret_free=True)
 # Use the code of this checkout, whatever is installed: a copy of the repository must run its own code.
-sys.path.insert(0, str(Path(workflow.basedir) / "src"))
+sys.path.insert(0, str(Path(ROOT) / "src"))
 
 from grasptypes.errors import InputError
 from grasptypes.failed_jobs import FailedJobs
@@ -20,7 +22,7 @@ from grasptypes.versions.guard import FolderLock, remove_leftovers
 from grasptypes.versions.provenance import FILE_HASHES, adopt_provenance
 
 pin_runtime()
-use_this_checkout(workflow.basedir)
+use_this_checkout(ROOT)
 try:
     if workflow.is_main_process:
         folder_lock, failed_jobs = FolderLock(), FailedJobs()

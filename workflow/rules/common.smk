@@ -23,13 +23,13 @@ from grasptypes.viewer import PAGE_FILES
 from grasptypes.content_hash import CodeHash, FileHash
 
 PUBLISHED_COUNTS = "assets/published_labels.csv"
-CATALOGUE = f"{workflow.basedir}/src/grasptypes/objects/catalogue.yaml"
+CATALOGUE = f"{ROOT}/src/grasptypes/objects/catalogue.yaml"
 # How people hold parts by role, size and task.
 KNOWLEDGE = [str(path) for path in (ROLES, TASKS_FILE, HOLDS)]
 
 try:
     PARAMS = Params.check(config)
-    check_start(PARAMS, workflow.basedir, os.environ)
+    check_start(PARAMS, ROOT, os.environ)
     PUBLISHED_CSV = published_path(os.environ) or []
     REFERENCE_MESHES = [str(path) for path in reference_meshes(os.environ)]
     OBJECTS, VARIANTS = all_objects(PARAMS.objects), all_variants(PARAMS.objects)
@@ -60,7 +60,7 @@ def settings(section, *left_out):
 
 def script_hash(name):
     """Hash of a script and all it imports from this project: a rule's `code` parameter."""
-    return code_hash(Path(workflow.basedir) / "workflow" / "scripts" / f"{name}.py")
+    return code_hash(Path(ROOT) / "workflow" / "scripts" / f"{name}.py")
 
 
 def hashes(paths):

@@ -61,7 +61,7 @@ rule show_grasps:
         ),
     params:
         hand=hand_parameter(config["hand"]),
-        page=hashes([f"{workflow.basedir}/src/grasptypes/viewer/{name}" for name in PAGE_FILES]),
+        page=hashes([f"{ROOT}/src/grasptypes/viewer/{name}" for name in PAGE_FILES]),
         code=script_hash("show_grasps"),
     message:
         "Writing the page of all grasps"
