@@ -115,8 +115,9 @@ results: setup ## copy what README and docs quote from reports/ to docs/results/
 	    if [ -e "$$new" ]; then cp "$$new" "$$file"; else echo "$$file stays: there is no $$new"; fi; done
 
 # Material announces its own successor unless the variable is set.
-docs: setup ## the documentation as a site: build/site
+docs: setup ## check the spelling, and build the documentation as a site: build/site
 	pip install -q --disable-pip-version-check --no-build-isolation -c requirements.lock -e '.[docs]'
+	git ls-files -z | xargs -0 codespell
 	NO_MKDOCS_2_WARNING=1 mkdocs build --strict
 
 release: setup ## the dataset as one folder for other programs: build/release

@@ -15,6 +15,7 @@ sys.path.insert(0, str(Path(ROOT) / "src"))
 
 from grasptypes.errors import InputError
 from grasptypes.failed_jobs import FailedJobs
+from grasptypes.first_run import compiling, downloading
 from grasptypes.jobs import reason
 from grasptypes.settings.params import Params, read_params
 from grasptypes.runtime import pin_runtime, use_this_checkout
@@ -108,6 +109,8 @@ for each in workflow.rules:
 onstart:
     if not folder_lock.take():
         sys.exit(1)
+    for line in compiling() + downloading(rules.prepare_backbone.output.record):
+        sys.stderr.write(f"{line}\n")
 
 
 onerror:

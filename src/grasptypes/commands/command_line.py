@@ -13,6 +13,7 @@ from importlib.metadata import version
 from typing import NoReturn
 
 from grasptypes.commands import demo, hand, inspect, label, plan, predict, view
+from grasptypes.commands.messages import add_loudness
 from grasptypes.errors import InputError, InputErrors
 from grasptypes.extras import MissingExtraError, missing_extra
 
@@ -73,6 +74,7 @@ def parser() -> argparse.ArgumentParser:
             name, help=module.SUMMARY, description=module.SUMMARY, allow_abbrev=False
         )
         module.add_arguments(command)
+        add_loudness(command)
     return whole
 
 
@@ -84,8 +86,9 @@ def main(arguments: Sequence[str] | None = None) -> None:
     """
     args = parser().parse_args(arguments)
     logging.addLevelName(logging.WARNING, "warning")
+    logging.addLevelName(logging.INFO, "info")
     logging.basicConfig(level=logging.ERROR, format="%(levelname)s: %(message)s")
-    logging.getLogger("grasptypes").setLevel(logging.WARNING)
+    logging.getLogger("grasptypes").setLevel(args.loudness)
     logging.getLogger("PIL").setLevel(logging.CRITICAL)  # its errors about images are raised, too
     warnings.simplefilter("ignore")
     try:

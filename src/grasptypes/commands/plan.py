@@ -6,12 +6,13 @@ Heavy libraries are imported after the arguments have been checked.
 from __future__ import annotations
 
 import argparse
-import sys
 from pathlib import Path
 
+from grasptypes.commands.messages import say
 from grasptypes.commands.settings import add_folder, check_place, printable, read_task
 from grasptypes.errors import InputError
 from grasptypes.files import json_text
+from grasptypes.first_run import compiling
 from grasptypes.objects.units import UNITS_M
 from grasptypes.settings.params import checkout_params
 
@@ -70,7 +71,7 @@ def run(args: argparse.Namespace) -> str:
     from grasptypes.planning.planner import Planner, check_guidance
     from grasptypes.segmentation.role_files import read_role_table
 
-    planner = Planner(args.folder, hand=args.hand, jobs=args.jobs, tell=_tell)
+    planner = Planner(args.folder, hand=args.hand, jobs=args.jobs, tell=say)
     # Check everything before anything is computed.
     planner.check_request(task, args.type, args.mass_kg)
     scan = MeasuredMap(args.contact_map, UNITS_M[args.unit]) if args.contact_map else None
@@ -85,6 +86,8 @@ def run(args: argparse.Namespace) -> str:
         name=printable(args.object.stem),
         settings=planner.params.objects,
     )
+    for line in compiling():
+        say(line)
     plan = planner.plan(
         geometry,
         task,
@@ -110,11 +113,6 @@ def _check_output(folder: Path) -> None:
             folder, "", "already exists and is not empty; name another folder with --output"
         )
     check_place(folder)
-
-
-def _tell(line: str) -> None:
-    sys.stderr.write(f"{line}\n")
-    sys.stderr.flush()
 
 
 def _number(text: str) -> float:

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import argparse
 import json
-import sys
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from functools import partial
 from itertools import islice
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from grasptypes.commands.messages import say
 from grasptypes.commands.settings import check_target, printable, read_task
 from grasptypes.errors import InputError
 from grasptypes.predictors.known_size import facts_of_size, read_size
@@ -64,7 +64,7 @@ def predict(args: argparse.Namespace) -> str:
         answers += predictor.answer(shown, task, names=names, **facts)
         drawn += shown if args.picture or args.explain else ()
     for file, reason in sorted(skipped.items()):
-        sys.stderr.write(f"skipped {printable(file.name)}: {reason}\n")
+        say(f"skipped {printable(file.name)}: {reason}")
     if args.picture:
         _draw(drawn, answers, predictor, task, args.picture)
     if args.explain:

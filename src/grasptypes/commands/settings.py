@@ -10,6 +10,7 @@ from collections.abc import Collection
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from grasptypes.commands.messages import say
 from grasptypes.errors import InputError
 from grasptypes.files import staging_name
 from grasptypes.settings.task_words import find_task
@@ -69,7 +70,7 @@ def read_task(text: str, known: Collection[str]) -> str:
     """
     task = find_task(text, known)
     if task != text:
-        sys.stderr.write(f"task: {task}\n")
+        say(f"task: {task}")
     return task
 
 

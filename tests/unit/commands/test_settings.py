@@ -1,5 +1,6 @@
 """What commands reject before they compute anything."""
 
+import logging
 import subprocess
 import sys
 from concurrent.futures.process import BrokenProcessPool
@@ -9,7 +10,8 @@ from pathlib import Path
 import pytest
 
 from grasptypes.__main__ import main
-from grasptypes.commands import predict
+from grasptypes.commands import label, predict
+from grasptypes.commands.messages import say
 from grasptypes.commands.settings import check_place, check_target
 from grasptypes.errors import InputError
 
@@ -103,3 +105,26 @@ def test_a_shell_completes_commands_and_options(capsys):
         code = f'{script}\n{ask}; echo "${{COMPREPLY[@]}}"'
         done = subprocess.run(["bash", "-c", code], capture_output=True, text=True, check=False)
         assert done.stdout.strip() == completed, done.stderr
+
+
+@pytest.mark.parametrize(
+    ("options", "said"),
+    [
+        ([], ["searching", "warning: mended"]),
+        (["-q"], []),
+        (["-v"], ["searching", "warning: mended", "info: egl"]),
+    ],
+    ids=["default", "quiet", "verbose"],
+)
+def test_how_much_is_said_on_standard_error(options, said, monkeypatch, capfd):
+    def run(_):
+        say("searching")
+        logging.getLogger("grasptypes.objects").warning("mended")
+        logging.getLogger("grasptypes.renders").info("egl")
+        return "answer\n"
+
+    monkeypatch.setattr(label, "run", run)
+    monkeypatch.setattr(logging.getLogger(), "handlers", [])
+    main(["label", "grasps.csv", "--object", "mug.stl", *options])
+    printed = capfd.readouterr()
+    assert (printed.out, printed.err.splitlines()) == ("answer\n", said)
