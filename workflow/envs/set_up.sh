@@ -50,8 +50,32 @@ if ! can_load libOSMesa.so.8 && ! can_load libOSMesa.so.6 && ! can_load libEGL.s
 fi
 
 [ -x "$venv/bin/python" ] || "$python" -m venv "$venv"
+# On a terminal, one changing line says how far pip is; otherwise only its errors are shown.
+install_locked() {
+    if [ ! -t 1 ]; then
+        "$venv/bin/pip" install -qq --disable-pip-version-check -r requirements.lock
+        return
+    fi
+    "$venv/bin/pip" install --disable-pip-version-check -r requirements.lock 2>&1 | show_progress
+}
+
+show_progress() {
+    local line found=0
+    while read -r line; do
+        case $line in
+            Collecting* | "Requirement already"*) found=$((found + 1)) ;;
+        esac
+        case $line in
+            Collecting* | Downloading*) printf '\r\033[K  package %d: %.60s' "$found" "$line" ;;
+            "Installing collected"*) printf '\r\033[K  unpacking %d packages' "$found" ;;
+            ERROR*) printf '\r\033[K%s\n' "$line" ;;
+        esac
+    done
+    printf '\r\033[K'
+}
+
 echo "installing the locked packages into $venv (a few minutes the first time)"
-"$venv/bin/pip" install -qq --disable-pip-version-check -r requirements.lock ||
+install_locked ||
     missing "a package of requirements.lock" "a connection to the package index, then make setup again"
 "$venv/bin/pip" install -qq --disable-pip-version-check --no-deps --no-build-isolation -e .
 touch "$ready"
