@@ -8,8 +8,9 @@ from pathlib import Path
 from snakemake.utils import min_version
 
 min_version("9.17")
-# The folder of this file, also where another workflow uses it as a module.
+# The folder of this file, also where another workflow uses it as a module, and that workflow's rules.
 ROOT = workflow.current_basedir.get_path_or_uri(secret_free=True)
+NOT_OURS = {each.name for each in workflow.rules}
 # Use the code of this checkout, whatever is installed: a copy of the repository must run its own code.
 sys.path.insert(0, str(Path(ROOT) / "src"))
 
@@ -98,7 +99,7 @@ localrules:
 
 # Every job has its own log and benchmark file, and the same environment.
 for each in workflow.rules:
-    if not each.norun:
+    if not each.norun and each.name not in NOT_OURS:
         each.log_modifier = each.benchmark_modifier = workflow.modifier.path_modifier
         each.set_log(f"logs/{job_name(each)}.log")
         each.benchmark = f"logs/benchmarks/{job_name(each)}.tsv"

@@ -1,34 +1,19 @@
 """The small configuration on a real Slurm cluster, interrupted twice, against the local run."""
 
-import shutil
 import signal
 import subprocess
 import sys
-import tempfile
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-import pytest
 from cluster import Cluster
 from repository import TARGET, Repository
 
 # The profile with less patience: this cluster answers at once.
 CALL = [sys.executable, "-m", "snakemake", "--profile", "profiles/slurm", "--latency-wait", "5"]
 CALL += ["--slurm-init-seconds-before-status-checks", "3", "--no-hooks", TARGET]
-
-
-@pytest.fixture
-def cluster() -> Iterator[Cluster]:
-    folder = Path(tempfile.mkdtemp(prefix="slurm-"))
-    cluster = Cluster(folder)
-    try:
-        cluster.start()
-        yield cluster
-    finally:
-        cluster.stop()
-        shutil.rmtree(folder)
 
 
 @contextmanager

@@ -79,6 +79,12 @@ def test_every_link_and_anchor_leads_somewhere(page: Path) -> None:
         assert not anchor or anchor in anchors(target), link
 
 
+def test_every_page_is_in_the_table_of_contents() -> None:
+    docs, contents = ROOT / "docs", (ROOT / "mkdocs.yml").read_text()
+    pages = {str(page.relative_to(docs)) for page in PAGES if page.is_relative_to(docs)}
+    assert pages == set(re.findall(r": (\S+\.(?:md|ipynb))$", contents, re.M))
+
+
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: str(page.relative_to(ROOT)))
 def test_every_command_is_one(page: Path, capsys: pytest.CaptureFixture[str]) -> None:
     for words in examples(page):

@@ -178,7 +178,8 @@ class Predictor:
         Args:
             shown: of `grasptypes.predictors.shown.look`, one per object.
             names: of the answers.
-            size_m, mass_kg: of every object whose size was not seen.
+            size_m: of every object whose size was not seen.
+            mass_kg: of the same objects.
 
         Raises:
             InputError: an unknown task, or a size or mass out of range.
