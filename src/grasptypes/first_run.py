@@ -20,7 +20,7 @@ def compiling(environment: Mapping[str, str] = os.environ) -> list[str]:
         places = [Path(named)]
     if any(next(place.rglob("energy.*.nbi"), None) for place in places):
         return []
-    return ["first run: functions are compiled once, which takes about a minute"]
+    return ["first run: functions are compiled once, which takes about half a minute"]
 
 
 def downloading(record: str | Path, environment: Mapping[str, str] = os.environ) -> list[str]:

@@ -19,6 +19,14 @@ rule publish_runs:
         predictors=settings("predictors"),
         # Of each model, in the order of the inputs.
         hands=[labelled_hand(labels) for labels in LABELS for _ in MODELS],
+        # Shown if they are there: the runs need not wait for them.
+        figures=[
+            *[TABLES[labels].figure for labels in LABELS],
+            rules.tabulate_types.output.figure,
+            rules.tabulate_objects.output.figure,
+            *rules.plot_folds.output,
+            *rules.plot_losses.output,
+        ],
         code=script_hash("publish_runs"),
     message:
         "Publishing the models to MLflow"

@@ -21,5 +21,7 @@ if __name__ == "__main__":
             for *parts, hand in zip(*files, snakemake.params.hands, strict=True)
         ]
         store = Store(TrackingSettings.model_validate(snakemake.params.tracking))
-        keys = publish(models, snakemake.params.predictors, inputs, store)
+        # Those that are drawn already: the runs do not wait for figures.
+        figures = [Path(figure) for figure in snakemake.params.figures if Path(figure).is_file()]
+        keys = publish(models, snakemake.params.predictors, inputs, store, figures)
         write_json(snakemake.output.runs, keys)

@@ -24,12 +24,20 @@ from grasptypes.versions.git import git
 
 logger = logging.getLogger("grasptypes")
 
+NOTE = """\
+Model `{model}`, trained on {labels} labels of the hand {hand}. Metrics are means over {runs} runs,
+one for each fold and seed: the child runs. `_sd` is their standard deviation; losses are curves
+over epochs. The artifacts hold the predictor and, under *figures*, tables and curves of all models.
+To see models side by side, select their runs and press *Compare*.
+"""
+
 
 def publish(
     models: Sequence[TrainedModel],
     settings: Mapping[str, Any],
     data: Mapping[str, Sequence[Path]],
     store: Store,
+    figures: Sequence[Path] = (),
 ) -> dict[str, str]:
     """Upsert a parent run for each model, with its folds as children and its predictor.
 
@@ -39,6 +47,7 @@ def publish(
     Args:
         settings: the `predictors` section of params.yaml that the models were trained with.
         data: what they were made from, by name: `backbone`, `renders` and others.
+        figures: shown with each model.
 
     Returns:
         Name of each parent run to its key.
@@ -56,6 +65,7 @@ def publish(
         with store.opened():
             store.offer_view(METRICS)
             run = store.upsert(record)
+            store.log_figures(run, figures)
             if weights is not None:
                 store.log_model(run, model, weights.path, read_pictures(data["renders"][0])[0])
         logger.info("%s: %d runs", record.name, 1 + len(record.children))
@@ -104,7 +114,10 @@ def run_record(
     summary |= {f"{name}_sd": float(metrics[name].std()) for name in METRICS}
     losses = _losses(curves.groupby("epoch").mean(numeric_only=True))
     name = f"{first['labels']} {first['model']}"
-    return RunRecord(key, name, model.times_ms, params, summary, losses, tags, children)
+    note = NOTE.format(
+        labels=first["labels"], model=first["model"], hand=model.hand, runs=len(children)
+    )
+    return RunRecord(key, name, model.times_ms, params, summary, losses, tags, children, note)
 
 
 def _losses(table: pd.DataFrame) -> dict[str, list[float]]:

@@ -37,6 +37,8 @@ from grasptypes.settings.params import Params
 
 KEY_TAG = "grasptypes.key"
 MODEL_TAG = "grasptypes.model"
+NOTE_TAG = "mlflow.note.content"  # MLflow's own tag for the description of a run
+FIGURES = "figures"
 # MLflow's own tag for a shared view of the runs.
 VIEW = "results"
 VIEW_TAG = f"mlflow.sharedViewState.{VIEW}"
@@ -93,6 +95,8 @@ class RunRecord:
     """One value per epoch, starting at epoch 1."""
     tags: Mapping[str, str]
     children: Sequence[RunRecord] = ()
+    note: str = ""
+    """The description of the run, in Markdown."""
 
 
 class Store:
@@ -153,6 +157,8 @@ class Store:
             start_ms = record.times_ms[0]
             run = self._client.create_run(self._experiment, start_time=start_ms, tags=tags)
         identity = run.info.run_id
+        if record.note and run.data.tags.get(NOTE_TAG) != record.note:
+            self._client.set_tag(identity, NOTE_TAG, record.note)
         if run.info.status != "FINISHED":
             # With the run's own times, repeating an interrupted call adds no duplicate values.
             self._write(identity, record, run.info.start_time)
@@ -166,6 +172,13 @@ class Store:
         columns = ["params.`hand`", *(f"metrics.`{name}`" for name in metrics)]
         state = json.dumps({"selectedColumns": columns})
         self._client.set_experiment_tag(self._experiment, VIEW_TAG, state)
+
+    def log_figures(self, run: str, figures: Sequence[Path]) -> None:
+        """Show figures among the artifacts of a run, those that are new or have another size."""
+        there = {entry.path: entry.file_size for entry in self._client.list_artifacts(run, FIGURES)}
+        for figure in figures:
+            if there.get(f"{FIGURES}/{figure.name}") != figure.stat().st_size:
+                self._client.log_artifact(run, str(figure), FIGURES)
 
     def log_model(self, run: str, model: TrainedModel, weights: Path, picture: np.ndarray) -> None:
         """Log a servable predictor with a run, unless it is already there.

@@ -110,6 +110,20 @@ def test_folds_stand_below_their_model_with_the_times_of_the_training(store, mod
     assert (child[1]["finetuning.epochs"], child[2]["test_loss"]) == ("3", 3.0)
 
 
+def test_a_model_is_described_and_shows_figures_once(store, model, data, tmp_path):
+    client = mlflow.MlflowClient(store.uri)
+    key = run_record(model, SETTINGS, {}).key
+    experiment = client.get_experiment_by_name(store.experiment).experiment_id
+    for content in (b"first", b"second one"):
+        (tmp_path / "table1.png").write_bytes(content)
+        publish([model], SETTINGS, data, store, [tmp_path / "table1.png"])
+        (run,) = client.search_runs([experiment], f"tags.`{KEY_TAG}` = '{key}'")
+        assert "means over 2 runs" in run.data.tags["mlflow.note.content"]
+        (figure,) = client.list_artifacts(run.info.run_id, "figures")
+        assert (figure.path, figure.file_size) == ("figures/table1.png", len(content))
+    assert shown(store)[key][3] == (*TIMES_MS, "FINISHED")
+
+
 def test_runs_show_the_hand_as_a_tag_and_a_column(store, model):
     client = mlflow.MlflowClient(store.uri)
     experiment = client.get_experiment_by_name(store.experiment)
