@@ -27,8 +27,10 @@ class FailedJobs(logging.Handler):
             self.logs[str(log.with_suffix("").relative_to("logs"))] = log
 
     def summary(self) -> str:
-        """One line per job: rule, wildcards, and reason."""
-        return "".join(f"error: {job}: {_reason(log)}\n" for job, log in self.logs.items())
+        """One line per job: rule, wildcards, reason, and log."""
+        return "".join(
+            f"error: {job}: {_reason(log)} (log: {log})\n" for job, log in self.logs.items()
+        )
 
 
 def _reason(log: Path) -> str:
@@ -36,5 +38,5 @@ def _reason(log: Path) -> str:
     lines = log.read_text(errors="replace").splitlines() if log.is_file() else []
     reasons = [line for line in lines if line.startswith(ERROR)]
     if not reasons:
-        return f"ended without a message, as if killed (was there enough memory?); see {log}"
+        return "ended without a message, as if killed (was there enough memory?)"
     return reasons[-1].removeprefix(ERROR)

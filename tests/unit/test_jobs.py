@@ -57,6 +57,6 @@ def test_every_failed_job_has_its_reason_in_the_summary(
     for name in ("train/mug", "killed"):
         failures.emit(failed(name))
     reasons = failures.summary().splitlines()
-    assert reasons[0] == "error: train/mug: last"
+    assert reasons[0] == "error: train/mug: last (log: logs/train/mug.log)"
     assert reasons[1].startswith("error: killed: ended without a message, as if killed")
     logger.removeHandler(failures)
