@@ -8,8 +8,9 @@ VENV ?= .venv
 JOBS ?= 2
 UI_PORT ?= 5057
 VERIFY ?=
-# On a terminal, one display of the progress; Snakemake's log is below .snakemake/log.
-SNAKEMAKE = snakemake $$(test -t 1 && echo --logger rich) -j$(JOBS)
+# On a terminal, one display of the progress; Snakemake's log is below .snakemake/log. The display is on
+# standard error: standard output is a pipe in `$(...)`.
+SNAKEMAKE = snakemake $$(test -t 2 && echo --logger rich) -j$(JOBS)
 # `value`, since a path may hold a dollar sign.
 export SETUP_PYTHON := $(value PYTHON)
 export SETUP_VENV := $(if $(filter /%,$(value VENV)),,$(CURDIR)/)$(value VENV)

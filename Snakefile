@@ -18,6 +18,7 @@ from grasptypes.errors import InputError
 from grasptypes.failed_jobs import FailedJobs
 from grasptypes.first_run import compiling, downloading
 from grasptypes.jobs import reason
+from grasptypes.progress_display import show_time_left
 from grasptypes.settings.params import Params, read_params
 from grasptypes.runtime import pin_runtime, use_this_checkout
 from grasptypes.versions.guard import FolderLock, remove_leftovers
@@ -28,6 +29,8 @@ use_this_checkout(ROOT)
 try:
     if workflow.is_main_process:
         folder_lock, failed_jobs = FolderLock(), FailedJobs()
+        if display := workflow.logger_manager.queue_listener:
+            show_time_left(display.handlers)
         if folder_lock.take():
             remove_leftovers(".")
             adopt_provenance(Path.cwd())
