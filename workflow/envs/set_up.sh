@@ -66,7 +66,7 @@ show_progress() {
             Collecting* | "Requirement already"*) found=$((found + 1)) ;;
         esac
         case $line in
-            Collecting* | Downloading*) printf '\r\033[K  package %d: %.60s' "$found" "$line" ;;
+            Collecting* | Downloading* | "Requirement already"*) printf '\r\033[K  package %d: %.60s' "$found" "$line" ;;
             "Installing collected"*) printf '\r\033[K  unpacking %d packages' "$found" ;;
             ERROR*) printf '\r\033[K%s\n' "$line" ;;
         esac
