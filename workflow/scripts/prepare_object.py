@@ -4,6 +4,7 @@ from pathlib import Path
 
 from grasptypes.jobs import job
 from grasptypes.kinds.catalogue import build
+from grasptypes.objects.grid_limit import limited
 from grasptypes.objects.mesh_import import import_model
 from grasptypes.objects.parts import ImportedModel
 from grasptypes.objects.preparation import prepare
@@ -12,10 +13,11 @@ from grasptypes.settings.objects import ImportLimits, OwnObject, Resolution
 if __name__ == "__main__":
     with job(snakemake.log):
         name, settings = snakemake.wildcards.object, snakemake.params.settings
+        resolution = Resolution.check(settings["resolution"])
         if "own" in settings:
             limits = ImportLimits.check(settings["import"])
-            found = import_model(OwnObject.check(settings["own"]), limits)
+            own = import_model(OwnObject.check(settings["own"]), limits)
+            found, resolution = limited(own, resolution, limits)
         else:
             found = ImportedModel(build(name), settings["scale"])
-        folder = Path(snakemake.output.properties).parent
-        prepare(name, found, Resolution.check(settings["resolution"]), folder)
+        prepare(name, found, resolution, Path(snakemake.output.properties).parent)

@@ -41,7 +41,7 @@ class DistanceGrid:
         points_m = np.ascontiguousarray(vertices, dtype=np.float64)
         triangles = np.ascontiguousarray(faces, dtype=np.int64)
         origin_m = points_m.min(axis=0) - margin_m
-        shape = np.ceil((points_m.max(axis=0) + margin_m - origin_m) / spacing_m).astype(int) + 1
+        shape = grid_shape(origin_m, points_m.max(axis=0) + margin_m, spacing_m)
         nodes = np.indices(shape).reshape(3, -1).T * spacing_m + origin_m
         distances = signed_distance(nodes, points_m, triangles)
         return cls(distances.reshape(shape).astype(np.float32), origin_m, float(spacing_m))
@@ -100,6 +100,11 @@ class DistanceGrid:
         steps = np.indices((2, 2, 2)).reshape(3, -1).T @ strides
         flat = self.values.reshape(-1)[(cell @ strides)[..., None] + steps]
         return np.asarray(flat.reshape(*cell.shape[:-1], 2, 2, 2), dtype=np.float64)
+
+
+def grid_shape(low_m: Array, high_m: Array, spacing_m: float) -> tuple[int, ...]:
+    """Number of nodes along each axis of a grid from one corner (3,) of a box to the other."""
+    return tuple((np.ceil((high_m - low_m) / spacing_m).astype(int) + 1).tolist())
 
 
 def signed_distance(points_m: ArrayLike, vertices: ArrayLike, faces: ArrayLike) -> Array:

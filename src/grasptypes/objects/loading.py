@@ -9,6 +9,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from grasptypes.errors import InputError
+from grasptypes.objects.grid_limit import limited
 from grasptypes.objects.mesh_import import import_model
 from grasptypes.objects.object_geometry import ObjectGeometry
 from grasptypes.objects.preparation import prepare
@@ -47,9 +48,10 @@ def load_object(
     own = own_object(path, unit, mass_kg).changed(scale=scale)
     objects = settings or checkout_params().objects
     imported = import_model(own, objects.import_)
+    imported, resolution = limited(imported, objects.resolution, objects.import_)
     folder = Path(tempfile.mkdtemp(prefix="grasptypes-"))
     try:
-        made = prepare(name or Path(path).stem, imported, objects.resolution, folder)
+        made = prepare(name or Path(path).stem, imported, resolution, folder)
     except BaseException:
         shutil.rmtree(folder)
         raise

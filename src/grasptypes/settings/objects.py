@@ -108,6 +108,9 @@ class ImportLimits(Settings):
     min_size_m: float = setting("smallest allowed longest extent", gt=0)
     max_size_m: float = setting("largest allowed longest extent", gt=0)
     max_box_m3: float = setting("largest allowed volume of the bounding box", gt=0)
+    max_grid_nodes: int = setting(
+        "nodes of the distance grid; a larger one gets a wider spacing", ge=1000
+    )
     rebuild_cells: int = setting("cells along the longest extent of a rebuilt mesh", ge=16, le=512)
     colour_cells: int = setting(
         "colours are sampled at this many points along the longest extent", ge=16, le=512
