@@ -11,13 +11,12 @@ import numpy as np
 from grasptypes.contact_maps.contact_map import ContactMap, MapTask, map_contacts
 from grasptypes.contact_maps.hold import Hold
 from grasptypes.objects.object_geometry import ObjectGeometry
+from grasptypes.planning.demands import demanded_holds
 from grasptypes.renders.mesh_views import MESH_WORD
 from grasptypes.segmentation.known_parts import known_parts
-from grasptypes.segmentation.part_holds import part_holds
 from grasptypes.segmentation.parts import Parts
 from grasptypes.segmentation.role_files import RoleTable
 from grasptypes.settings.params import Params
-from grasptypes.settings.tasks import read_tasks
 
 CENTIMETRES = 100.0
 
@@ -108,8 +107,7 @@ def inspect_object(
         named = MapTask(
             drawn.points, drawn.part_names, (MESH_WORD, task), drawn.seed, drawn.scale, settings
         )
-        known = read_tasks()[task]
-        seen, holds = part_holds(named, geometry, parts, known, params.segmentation)
+        seen, holds = demanded_holds(named, geometry, parts, params)
         found.append(TaskContacts(task, holds, map_contacts(seen, holds) if holds else None))
     return Inspection(geometry, drawn, parts, mass_given, tuple(found))
 

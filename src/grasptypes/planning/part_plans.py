@@ -23,11 +23,11 @@ from grasptypes.hands.reading import load_hand
 from grasptypes.hands.surface import surface_points
 from grasptypes.labels.grasp_type import GRASP_TYPES
 from grasptypes.objects.distance_grid import DistanceGrid
+from grasptypes.planning.demands import hold_as_demanded
 from grasptypes.planning.plan_comparison import tests
-from grasptypes.planning.plan_contacts import PlanContacts, grips_of, hold_parts, plan_contacts
+from grasptypes.planning.plan_contacts import PlanContacts, grips_of, plan_contacts
 from grasptypes.planning.sessions import PlanningContext, plan_sessions
 from grasptypes.segmentation.known_parts import known_parts
-from grasptypes.segmentation.part_holds import part_holds
 from grasptypes.segmentation.true_roles import TrueRoles
 from grasptypes.settings.commands import PartPlanSettings
 from grasptypes.settings.holds import TouchSettings
@@ -55,6 +55,7 @@ PART_PLAN_SCHEMA = pa.DataFrameSchema(
         "handle_free": pa.Column(
             int, COUNT, description="valid, and most of the contact leaves handles free"
         ),
+        "safe": pa.Column(int, COUNT, description="valid, without contact on hazardous parts"),
         "accepted": pa.Column(int, COUNT, description="held and clear"),
     },
     strict=True,
@@ -62,6 +63,7 @@ PART_PLAN_SCHEMA = pa.DataFrameSchema(
     unique=["object", "task", "parts"],
 )
 SHARE = pa.Check.in_range(0, 1)
+VERDICTS = ("held", "clear", "handle_free", "safe", "accepted")
 # The sets of scans, and how the names of the objects of one of them begin.
 CONTACTDB, YCB = SETS = ("contactdb", "ycb")
 GAIN_SCHEMA = pa.DataFrameSchema(
@@ -72,6 +74,7 @@ GAIN_SCHEMA = pa.DataFrameSchema(
         "held": pa.Column(float, SHARE, description="share of the valid grasps"),
         "clear": pa.Column(float, SHARE),
         "handle_free": pa.Column(float, SHARE),
+        "safe": pa.Column(float, SHARE),
         "accepted": pa.Column(float, SHARE),
         "valid": pa.Column(float, SHARE, description="share of the sessions"),
         "tests_per_accepted": pa.Column(float, nullable=True),
@@ -97,8 +100,7 @@ def study_plans(
     task = read_tasks()[context.task]
     parts = known_parts(context.geometry, drawn.points, params.segmentation)
     anywhere = plan_contacts(drawn, None, grips, context.geometry.source)
-    seen = part_holds(drawn, context.geometry, parts, task, params.segmentation)
-    found = hold_parts(*seen, grips) or anywhere
+    found = hold_as_demanded(drawn, context.geometry, parts, grips, params) or anywhere
     return [
         {
             "object": context.geometry.name,
@@ -125,7 +127,7 @@ def _judged(
         accepts(contact_shares(true.at(*_touching(hand, grid, numbers, touch))), task, settings)
         for numbers in grasps[grasps.valid].hand_configuration
     ]
-    held, clear, free = np.array(verdicts, dtype=bool).reshape(-1, 3).T
+    held, clear, free, safe = np.array(verdicts, dtype=bool).reshape(-1, 4).T
     return {
         "sessions": settings.sessions,
         "tests": tests(attempts),
@@ -133,6 +135,7 @@ def _judged(
         "held": int(held.sum()),
         "clear": int(clear.sum()),
         "handle_free": int(free.sum()),
+        "safe": int(safe.sum()),
         "accepted": int((held & clear).sum()),
     }
 
@@ -146,13 +149,13 @@ def contact_shares(touched: Sequence[PartRole]) -> list[tuple[PartRole, float]]:
 
 def accepts(
     shares: Sequence[tuple[PartRole, float]], task: Task, settings: PartPlanSettings
-) -> tuple[bool, bool, bool]:
+) -> tuple[bool, bool, bool, bool]:
     """Whether a grasp with these shares of contact is where people hold an object for a task.
 
     Returns:
         whether most of the contact is on roles that people touch; whether nothing is on roles that
         must stay free, nor on hazardous parts that people do not touch; whether handles are left
-        free.
+        free; whether nothing is on hazardous parts.
     """
     held = sum(share for part, share in shares if task.touched.get(part.role, 0.0) > 0)
     wrong = sum(
@@ -161,7 +164,9 @@ def accepts(
         if part.role in task.free or (part.hazardous and part.role not in task.touched)
     )
     on_handle = sum(share for part, share in shares if part.role in HANDLES)
-    return held > 1 / 2, wrong <= settings.trace, on_handle <= settings.covered
+    on_hazard = sum(share for part, share in shares if part.hazardous)
+    off = wrong <= settings.trace, on_handle <= settings.covered, on_hazard <= settings.trace
+    return held > 1 / 2, *off
 
 
 def _touching(
@@ -193,18 +198,13 @@ def summary(table: pd.DataFrame) -> pd.DataFrame:
         )
         gain = share[FOUND] - share[ANYWHERE]
         for parts, some in of_task.groupby("parts", sort=False):
-            total = some[
-                ["sessions", "tests", "valid", "held", "clear", "handle_free", "accepted"]
-            ].sum()
+            total = some[["sessions", "tests", "valid", *VERDICTS]].sum()
             rows.append(
                 {
                     "scans": scans,
                     "task": task,
                     "parts": parts,
-                    **{
-                        name: total[name] / max(total.valid, 1)
-                        for name in ("held", "clear", "handle_free", "accepted")
-                    },
+                    **{name: total[name] / max(total.valid, 1) for name in VERDICTS},
                     "valid": total.valid / total.sessions,
                     "tests_per_accepted": total.tests / total.accepted
                     if total.accepted

@@ -18,22 +18,20 @@ from grasptypes.hands.reading import load_hand
 from grasptypes.labels.grasp import Grasp, grasps_of
 from grasptypes.labels.grasp_type import GRASP_TYPES
 from grasptypes.objects.object_geometry import ObjectGeometry
+from grasptypes.planning.demands import hold_as_demanded
 from grasptypes.planning.held_contacts import held_contacts
 from grasptypes.planning.plan_contacts import (
     MeasuredMap,
     grips_of,
-    hold_parts,
     missing_types,
     plan_contacts,
 )
 from grasptypes.planning.sessions import PlanningContext, plan_sessions
 from grasptypes.renders.mesh_views import MESH_WORD
 from grasptypes.segmentation.known_parts import known_parts
-from grasptypes.segmentation.part_holds import part_holds
 from grasptypes.segmentation.parts import Parts, described
 from grasptypes.segmentation.role_files import RoleTable
 from grasptypes.settings.params import Params, checkout_params
-from grasptypes.settings.tasks import read_tasks
 
 if TYPE_CHECKING:
     from grasptypes.predictors.prediction import Predictor
@@ -164,10 +162,8 @@ class Planner:
         drawn = MapTask.of_object(object, name, seed_number, settings)
         grips, parts, contacts = grips_of(request.types), None, None
         if contact_map is None:
-            finding = self.params.segmentation
-            parts = known_parts(object, drawn.points, finding, roles)
-            held_parts = part_holds(drawn, object, parts, read_tasks()[task], finding)
-            contacts = hold_parts(*held_parts, grips)
+            parts = known_parts(object, drawn.points, self.params.segmentation, roles)
+            contacts = hold_as_demanded(drawn, object, parts, grips, self.params)
         held = contacts is not None
         contacts = contacts or plan_contacts(drawn, contact_map, grips, source)
         if parts:

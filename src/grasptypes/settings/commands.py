@@ -6,7 +6,17 @@ from typing import Annotated, Literal
 
 from pydantic import AfterValidator
 
-from grasptypes.settings.base import Between, Pair, Settings, Share, setting, upwards
+from grasptypes.settings.base import (
+    Between,
+    Name,
+    Pair,
+    Settings,
+    Share,
+    Unique,
+    setting,
+    upwards,
+)
+from grasptypes.settings.roles import RoleName
 
 
 class PhotoLimits(Settings):
@@ -112,6 +122,9 @@ class PlanSettings(Settings):
     min_mass_kg: float = setting("smallest mass of an object", gt=0)
     max_mass_kg: float = setting("largest mass of an object", gt=0)
     shown: int = setting("number of grasps in the image", ge=1, le=100)
+    offered: dict[Name, Unique[RoleName]] = setting(
+        "roles that a plan for a task leaves to a receiver, away from hazards, by task"
+    )
     comparison: PlanComparisonSettings
     parts: PartPlanSettings
 

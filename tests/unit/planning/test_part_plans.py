@@ -31,12 +31,13 @@ def test_shares_of_contact_add_up():
 @pytest.mark.parametrize(
     ("task", "touched", "verdict"),
     [
-        ("use", {HANDLE: 1.0}, (True, True, False)),
-        ("use", {HANDLE: 0.9, BLADE: 0.1}, (True, False, False)),
+        ("use", {HANDLE: 1.0}, (True, True, False, True)),
+        ("use", {HANDLE: 0.9, BLADE: 0.1}, (True, False, False, False)),
         # A point or two beside an edge.
-        ("use", {HANDLE: 0.96, BLADE: 0.04}, (True, True, False)),
-        ("handoff", {HEAD: 0.8, HANDLE: 0.2}, (True, True, True)),
-        ("strike", {HEAD: 0.6, HANDLE: 0.4}, (False, False, False)),
+        ("use", {HANDLE: 0.96, BLADE: 0.04}, (True, True, False, True)),
+        ("handoff", {HEAD: 0.8, HANDLE: 0.2}, (True, True, True, True)),
+        ("handoff", {BLADE: 1.0}, (True, True, True, False)),
+        ("strike", {HEAD: 0.6, HANDLE: 0.4}, (False, False, False, True)),
     ],
 )
 def test_a_grasp_is_accepted_where_people_hold_for_the_task(task, touched, verdict):
@@ -46,7 +47,8 @@ def test_a_grasp_is_accepted_where_people_hold_for_the_task(task, touched, verdi
 def test_the_gain_is_that_of_each_set_of_scans():
     def row(name, parts, accepted):
         counts = {"sessions": 4, "tests": 8, "valid": 4, "held": 4, "clear": 4, "handle_free": 0}
-        return {"object": name, "task": "use", "parts": parts, **counts, "accepted": accepted}
+        counts |= {"safe": 4, "accepted": accepted}
+        return {"object": name, "task": "use", "parts": parts, **counts}
 
     rows = [row("mug", FOUND, 4), row("mug", ANYWHERE, 2)]
     rows += [row("ycb_mug", FOUND, 1), row("ycb_mug", ANYWHERE, 0)]

@@ -1,0 +1,50 @@
+"""What a plan demands of a hold, beyond what people do: parts are offered to a receiver."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from grasptypes.contact_maps.contact_map import MapTask
+from grasptypes.contact_maps.hold import Hold
+from grasptypes.objects.object_geometry import ObjectGeometry
+from grasptypes.planning.plan_contacts import PlanContacts, hold_parts
+from grasptypes.segmentation.part_holds import part_holds
+from grasptypes.segmentation.parts import Parts
+from grasptypes.settings.params import Params
+from grasptypes.settings.tasks import Task, read_tasks
+
+
+def demands(name: str, params: Params) -> list[Task]:
+    """A task as a plan understands it, the strictest way first, and as people do it last.
+
+    A hand that offers some roles to a receiver stays off them and off hazards, else off hazards.
+    """
+    task = read_tasks()[name]
+    offered = params.plan.offered.get(name, ())
+    if not offered:
+        return [task]
+    safe = task.changed(hazard=0.0)
+    others = {role: weight for role, weight in task.touched.items() if role not in offered}
+    return [safe.changed(touched=others, free=(*task.free, *offered)), safe, task]
+
+
+def demanded_holds(
+    drawn: MapTask, geometry: ObjectGeometry, parts: Parts, params: Params
+) -> tuple[MapTask, list[Hold]]:
+    """The holds for the strictest demand of a task for which there are any, see `part_holds`."""
+    found = [
+        part_holds(drawn, geometry, parts, task, params.segmentation)
+        for task in demands(drawn.name[1], params)
+    ]
+    return next((each for each in found if each[1]), found[-1])
+
+
+def hold_as_demanded(
+    drawn: MapTask, geometry: ObjectGeometry, parts: Parts, grips: Sequence[str], params: Params
+) -> PlanContacts | None:
+    """Sessions for the strictest demand of a task in which hands find places, see `hold_parts`."""
+    ways = (
+        hold_parts(*part_holds(drawn, geometry, parts, task, params.segmentation), grips)
+        for task in demands(drawn.name[1], params)
+    )
+    return next((way for way in ways if way), None)
