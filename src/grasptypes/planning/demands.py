@@ -17,15 +17,18 @@ from grasptypes.settings.tasks import Task, read_tasks
 def demands(name: str, params: Params) -> list[Task]:
     """A task as a plan understands it, the strictest way first, and as people do it last.
 
-    A hand that offers some roles to a receiver stays off them and off hazards, else off hazards.
+    Where parts are offered to a receiver, hands stay off these and off hazards.
     """
     task = read_tasks()[name]
-    offered = params.plan.offered.get(name, ())
-    if not offered:
-        return [task]
-    safe = task.changed(hazard=0.0)
-    others = {role: weight for role, weight in task.touched.items() if role not in offered}
-    return [safe.changed(touched=others, free=(*task.free, *offered)), safe, task]
+    strict = [
+        task.changed(
+            touched={role: weight for role, weight in task.touched.items() if role not in free},
+            free=(*task.free, *free),
+            hazard=0.0,
+        )
+        for free in params.plan.offered.get(name, ())
+    ]
+    return [*strict, task]
 
 
 def demanded_holds(

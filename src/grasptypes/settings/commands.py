@@ -122,8 +122,9 @@ class PlanSettings(Settings):
     min_mass_kg: float = setting("smallest mass of an object", gt=0)
     max_mass_kg: float = setting("largest mass of an object", gt=0)
     shown: int = setting("number of grasps in the image", ge=1, le=100)
-    offered: dict[Name, Unique[RoleName]] = setting(
-        "roles that a plan for a task leaves to a receiver, away from hazards, by task"
+    offered: dict[Name, list[Unique[RoleName]]] = setting(
+        "by task, roles that a plan leaves free: the first list that leaves something to hold; its "
+        "hands keep off hazards too"
     )
     comparison: PlanComparisonSettings
     parts: PartPlanSettings

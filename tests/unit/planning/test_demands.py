@@ -37,6 +37,8 @@ def test_only_a_task_with_a_receiver_demands_more_than_people_do():
     [
         ("use", "head", {"handle", "head"}),
         ("handoff", "head", {"head"}),
+        # Beside the handle there is nothing better.
+        ("handoff", "working_end", {"head"}),
         # Nothing is left to hold but the handle, or the blade.
         ("handoff", "blade", {"handle"}),
     ],
