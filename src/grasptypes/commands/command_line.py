@@ -9,6 +9,7 @@ import sys
 import warnings
 from collections.abc import Sequence
 from concurrent.futures.process import BrokenProcessPool
+from copy import copy
 from importlib.metadata import version
 from typing import NoReturn
 
@@ -78,6 +79,16 @@ def parser() -> argparse.ArgumentParser:
     return whole
 
 
+class _LowerCase(logging.Formatter):
+    """Names of levels as in the commands' own lines: `warning: ...`."""
+
+    def format(self, record: logging.LogRecord) -> str:
+        """A line of a record, which stays as it is for other handlers."""
+        lower = copy(record)
+        lower.levelname = record.levelname.lower()
+        return super().format(lower)
+
+
 def main(arguments: Sequence[str] | None = None) -> None:
     """Run one command.
 
@@ -85,9 +96,9 @@ def main(arguments: Sequence[str] | None = None) -> None:
     exits with 130, a closed pipe with 141, as in shells.
     """
     args = parser().parse_args(arguments)
-    logging.addLevelName(logging.WARNING, "warning")
-    logging.addLevelName(logging.INFO, "info")
-    logging.basicConfig(level=logging.ERROR, format="%(levelname)s: %(message)s")
+    shown = logging.StreamHandler()
+    shown.setFormatter(_LowerCase("%(levelname)s: %(message)s"))
+    logging.basicConfig(level=logging.ERROR, handlers=[shown])
     logging.getLogger("grasptypes").setLevel(args.loudness)
     logging.getLogger("PIL").setLevel(logging.CRITICAL)  # its errors about images are raised, too
     warnings.simplefilter("ignore")

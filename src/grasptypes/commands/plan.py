@@ -12,7 +12,6 @@ from grasptypes.commands.messages import say
 from grasptypes.commands.settings import add_folder, check_place, printable, read_task
 from grasptypes.errors import InputError
 from grasptypes.files import json_text
-from grasptypes.first_run import compiling
 from grasptypes.objects.units import UNITS_M
 from grasptypes.settings.params import checkout_params
 
@@ -86,8 +85,6 @@ def run(args: argparse.Namespace) -> str:
         name=printable(args.object.stem),
         settings=planner.params.objects,
     )
-    for line in compiling():
-        say(line)
     plan = planner.plan(
         geometry,
         task,

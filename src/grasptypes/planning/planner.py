@@ -13,6 +13,7 @@ import pandas as pd
 from grasptypes.contact_maps.contact_map import ContactMap, MapTask
 from grasptypes.contact_maps.placement import SurfacePoints
 from grasptypes.errors import InputError
+from grasptypes.first_run import compiling
 from grasptypes.hands.hand import Hand
 from grasptypes.hands.reading import load_hand
 from grasptypes.labels.grasp import Grasp, grasps_of
@@ -175,6 +176,8 @@ class Planner:
                 f"skipped {left_out} of {settings.sessions} ways of holding: "
                 "no place has opposing sides for them"
             )
+        for line in compiling():
+            self.tell(line)
         self.tell(f"searching for {', '.join(request.types)} grasps of {object.name} for {task}")
         context = PlanningContext(object, task, MESH_WORD, self.hand.folder, self.params)
         attempts, ranking = plan_sessions(context, contacts, request.types, self.jobs, self.tell)

@@ -12,7 +12,7 @@ from grasptypes.predictors.memory import Memory
 def test_the_kind_itself_is_the_nearest_and_each_kind_occurs_once():
     names = np.array(["cup_s01", "cup_s02", "fork_s01", "mug"])
     looks = np.array([[9, 1.0, 0.0], [9, 0.9, 0.2], [9, 0.0, 1.0], [9, -1.0, -1.0]])
-    inputs = Inputs(looks, np.zeros((4, 0)), np.zeros((4, 4)), np.zeros((4, 1)))
+    inputs = Inputs(looks, np.zeros((4, 0)), np.zeros((4, 4)), np.zeros((4, 1)), np.ones(4))
     types = np.eye(4)
     memory = Memory.of(inputs, Targets(types, types, np.ones(4), names), PARAMS.general.head.memory)
     near = nearest(memory, np.array([[0, 2.0, 0.0], [0, 2.0, 0.1]]), 3)
