@@ -12,6 +12,13 @@ rule publish_runs:
         backbone=rules.prepare_backbone.output.record,
         renders=expand(rules.render_object.output.pictures, object=OBJECTS),
         features=expand(rules.extract_features.output.features, object=OBJECTS),
+        # Shown with each model.
+        figures=[
+            *[TABLES[labels].figure for labels in LABELS],
+            rules.tabulate_types.output.figure,
+            *rules.plot_folds.output,
+            *rules.plot_losses.output,
+        ],
     output:
         runs="reports/runs.json",
     params:
@@ -19,14 +26,6 @@ rule publish_runs:
         predictors=settings("predictors"),
         # Of each model, in the order of the inputs.
         hands=[labelled_hand(labels) for labels in LABELS for _ in MODELS],
-        # Shown if they are there: the runs need not wait for them.
-        figures=[
-            *[TABLES[labels].figure for labels in LABELS],
-            rules.tabulate_types.output.figure,
-            rules.tabulate_objects.output.figure,
-            *rules.plot_folds.output,
-            *rules.plot_losses.output,
-        ],
         code=script_hash("publish_runs"),
     message:
         "Publishing the models to MLflow"

@@ -16,12 +16,11 @@ if __name__ == "__main__":
             for name, files in snakemake.input.items()
         }
         files = [inputs.pop(name) for name in ("metrics", "curves", "tensors", "cards")]
+        figures = inputs.pop("figures")
         models = [
             TrainedModel(*parts, times_ms(parts[-1]), hand)
             for *parts, hand in zip(*files, snakemake.params.hands, strict=True)
         ]
         store = Store(TrackingSettings.model_validate(snakemake.params.tracking))
-        # Those that are drawn already: the runs do not wait for figures.
-        figures = [Path(figure) for figure in snakemake.params.figures if Path(figure).is_file()]
         keys = publish(models, snakemake.params.predictors, inputs, store, figures)
         write_json(snakemake.output.runs, keys)
