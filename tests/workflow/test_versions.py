@@ -144,11 +144,13 @@ def test_a_second_run_is_refused_and_a_killed_one_goes_on(
         while "Training" not in log.read_text():
             assert first.poll() is None, log.read_text()
             time.sleep(0.1)
+        # It stands still in the middle of a job, however fast the machine is.
+        os.killpg(first.pid, signal.SIGSTOP)
         said = changed.run("snakemake", "-j2", check=False)
         assert re.search(r"another run is active in this folder: process \d+", said)
         assert "Execute" not in said
-        assert "Job stats" in changed.run("snakemake", "-n")  # a dry run reads along
-        assert first.poll() is None, "it ended before it was killed"
+        # A dry run reads along.
+        assert "Job stats" in changed.run("snakemake", "-n", "predictors", "all")
     finally:
         os.killpg(first.pid, signal.SIGKILL)
         first.wait()
