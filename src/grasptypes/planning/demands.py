@@ -35,11 +35,12 @@ def demanded_holds(
     drawn: MapTask, geometry: ObjectGeometry, parts: Parts, params: Params
 ) -> tuple[MapTask, list[Hold]]:
     """The holds for the strictest demand of a task for which there are any, see `part_holds`."""
-    found = [
-        part_holds(drawn, geometry, parts, task, params.segmentation)
-        for task in demands(drawn.name[1], params)
-    ]
-    return next((each for each in found if each[1]), found[-1])
+    *strict, task = demands(drawn.name[1], params)
+    for demand in strict:
+        found = part_holds(drawn, geometry, parts, demand, params.segmentation)
+        if found[1]:
+            return found
+    return part_holds(drawn, geometry, parts, task, params.segmentation)
 
 
 def hold_as_demanded(
