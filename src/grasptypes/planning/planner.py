@@ -23,7 +23,6 @@ from grasptypes.planning.demands import hold_as_demanded
 from grasptypes.planning.held_contacts import held_contacts
 from grasptypes.planning.plan_contacts import (
     MeasuredMap,
-    PlanContacts,
     grips_of,
     missing_types,
     plan_contacts,
@@ -165,9 +164,11 @@ class Planner:
         grips, parts, contacts = grips_of(request.types), None, None
         if contact_map is None:
             parts = known_parts(object, drawn.points, self.params.segmentation, roles)
-            contacts = self._hold(drawn, object, parts, grips)
+            contacts = hold_as_demanded(drawn, object, parts, grips, self.params)
         held = contacts is not None
         contacts = contacts or plan_contacts(drawn, contact_map, grips, source)
+        if parts:
+            self._tell_parts(parts, task, held)
         if left_out := settings.sessions - len(contacts.numbers):
             self.tell(
                 f"skipped {left_out} of {settings.sessions} ways of holding: "
@@ -194,15 +195,11 @@ class Planner:
             contacts=touching,
         )
 
-    def _hold(
-        self, drawn: MapTask, object: ObjectGeometry, parts: Parts, grips: Sequence[str]
-    ) -> PlanContacts | None:
-        """Where hands hold an object's parts for a task; None if they hold none of them."""
-        contacts = hold_as_demanded(drawn, object, parts, grips, self.params)
+    def _tell_parts(self, parts: Parts, task: str, held: bool) -> None:
+        """Say what the parts are, and whether people hold any of them for a task."""
         self.tell(f"parts by {parts.basis}: {described(parts)}")
-        if contacts is None:
-            self.tell(f"people hold none of these for {drawn.name[1]}: every place counts the same")
-        return contacts
+        if not held:
+            self.tell(f"people hold none of these for {task}: every place counts the same")
 
     def check_request(
         self, task: str, types: Sequence[str], mass_kg: float | None, source: str = ""
