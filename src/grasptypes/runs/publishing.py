@@ -14,10 +14,10 @@ import pandas as pd
 
 from grasptypes.errors import InputError
 from grasptypes.files import file_sha256
-from grasptypes.predictors.features import read_pictures
 from grasptypes.predictors.metrics import METRICS
 from grasptypes.predictors.scoring import CURVE_SCHEMA, METRIC_SCHEMA
 from grasptypes.predictors.weights import BackboneRecord
+from grasptypes.renders.archives import read_pictures
 from grasptypes.runs.tracking import RunRecord, Store, TrainedModel
 from grasptypes.tables import read_table
 from grasptypes.versions.git import git

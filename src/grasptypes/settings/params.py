@@ -18,6 +18,7 @@ from grasptypes.settings.kinds import KindSettings
 from grasptypes.settings.objects import ObjectSettings, TaskSettings
 from grasptypes.settings.physics import GraspTestSettings
 from grasptypes.settings.predictors import (
+    NO_TASK,
     BackboneSettings,
     FeatureSettings,
     FoldSettings,
@@ -32,8 +33,6 @@ from grasptypes.settings.tasks import TASKS, read_tasks
 from grasptypes.yaml_files import read_yaml
 
 PARAMS = "params.yaml"
-# Name for images and features without a task.
-NO_TASK = "none"
 
 
 def _is_a_task(name: str) -> str:
