@@ -69,7 +69,7 @@ def draw_misclassified(
     what = "images and tasks" if predictions["task"].any() else "images"
     shown = table.head(MOST)
     rows = max(1, math.ceil(len(shown) / COLUMNS))
-    figure = Figure(figsize=(2.4 * COLUMNS, 0.6 + 3 * rows), layout="constrained")
+    figure = Figure(figsize=(2.4 * COLUMNS, 0.6 + 3.2 * rows), layout="constrained")
     wrong = f"{len(table)} of {questions} {what} get wrong types"
     figure.suptitle(f"{name}: {wrong} from at least one of {seeds} seeds")
     panels = list(figure.subplots(rows, COLUMNS, squeeze=False).flat)
