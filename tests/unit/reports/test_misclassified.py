@@ -24,7 +24,9 @@ RIGHT, LACKING, SURE, NOTHING = (
 )
 
 
-def predictions(logits: list[list[int]], names: list[str], views: list[int], seeds: list[int]):
+def predictions(
+    logits: list[list[int]], names: list[str], views: list[int], seeds: list[int]
+) -> pd.DataFrame:
     table = pd.DataFrame(np.array(logits, dtype=np.float32), columns=list(LOGITS))
     return table.assign(object=names, view=views, task="use", group="0", seed=seeds)
 
