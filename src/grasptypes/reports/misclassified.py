@@ -15,8 +15,8 @@ from numpy.typing import NDArray
 from scipy.special import softmax
 
 from grasptypes.labels.samples import TYPES
-from grasptypes.predictors.features import read_pictures
 from grasptypes.predictors.metrics import angular_similarity, chosen, shares
+from grasptypes.renders.archives import read_pictures
 from grasptypes.reports.breakdown import LOGITS, labels_for
 
 MOST, COLUMNS = 20, 5
@@ -62,7 +62,7 @@ def draw_misclassified(
         name: of the model.
         predictions: of `scoring.PREDICTION_SCHEMA`.
         samples: of `samples.SAMPLE_SCHEMA`.
-        archives: images of each object, see `features.read_pictures`.
+        archives: images of each object, see `archives.read_pictures`.
     """
     table = misclassified(predictions, samples)
     questions, seeds = len(predictions.drop_duplicates(ASKED)), predictions["seed"].nunique()
