@@ -29,6 +29,7 @@ setup: ## virtual environment from the lock file, and the off-screen GL library
 
 table1: setup ## the main job: from parameters to Table I
 	$(SNAKEMAKE) reports/table1.csv
+	@echo "Table I: reports/table1.md"
 
 demo: setup ## the whole pipeline on 2 objects, in build/demo
 	python -m grasptypes.versions.checkout . build/demo tests/small.yaml
@@ -110,6 +111,7 @@ report: setup ## the results with captions as one HTML page that opens offline: 
 	$(SNAKEMAKE) results
 	python -m grasptypes.reports.timing
 	snakemake shown --report build/report.html --report-stylesheet workflow/report/page.css
+	@echo "open build/report.html in a browser"
 
 results: setup ## copy what README and docs quote from reports/ to docs/results/
 	@for file in docs/results/*; do new="reports/$${file##*/}"; \
