@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
+import math
 from functools import cache
 from pathlib import Path
 from typing import Annotated, Literal, Self
 
-import numpy as np
 from pydantic import Field, model_validator
 
 from grasptypes.settings.base import (
@@ -54,8 +54,10 @@ class Use(Settings):
 
     @model_validator(mode="after")
     def _has_two_directions(self) -> Self:
-        if np.linalg.norm(np.cross(self.ahead, self.up)) < 0.5:
-            raise MisplacedError("up", "must be of length 1 and across `ahead`")
+        lengths = math.hypot(*self.ahead), math.hypot(*self.up)
+        along = sum(a * b for a, b in zip(self.ahead, self.up, strict=True))
+        if min(lengths) < 0.9 or max(lengths) > 1.1 or abs(along) > 0.1:
+            raise MisplacedError("up", "must be across `ahead`, and both of length 1")
         return self
 
 
