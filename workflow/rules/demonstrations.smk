@@ -21,7 +21,7 @@ rule demonstrate_tasks:
     params:
         tasks=["handoff", "use"],
         hand=hand_parameter(config["hand"]),
-        settings=settings("demonstrations"),
+        settings=settings("demonstrations", "missing", "sheet"),
         renders=settings("renders", "views", "sheet") | {"shadow_strength": 0.0},
         table=hashes([str(DEMONSTRATIONS)]),
         seed=config["seed"],

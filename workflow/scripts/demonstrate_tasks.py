@@ -12,7 +12,7 @@ from grasptypes.objects.object_files import read_surface
 from grasptypes.renders.demonstrations import Shown, handovers, pictures, uses
 from grasptypes.renders.renderer import Camera
 from grasptypes.renders.scene import load_parts
-from grasptypes.settings.demonstrations import DemonstrationSettings
+from grasptypes.settings.demonstrations import SceneSettings
 from grasptypes.settings.renders import CameraSettings
 from grasptypes.synthesis.grasps import GRASP_SCHEMA
 from grasptypes.tables import read_table
@@ -22,10 +22,10 @@ def demonstrate_tasks(
     shown: Shown,
     tables: Mapping[str, str | Path],
     target: str | Path,
-    settings: tuple[DemonstrationSettings, CameraSettings],
+    settings: tuple[SceneSettings, CameraSettings],
     seed: int,
 ) -> None:
-    """Write `<task>_<number>.png` of each task and view to one archive.
+    """Write `<number>_<task>.png` of each task and view to one archive.
 
     Args:
         tables: the grasps by task.
@@ -40,7 +40,7 @@ def demonstrate_tasks(
             key = f"{shown.name} {task}"
             taken = pictures(scenes, used, (key, seed), demonstrations)
             shots = tqdm(taken, key, total=demonstrations.views, mininterval=5)
-            members |= {f"{task}_{number:03d}.png": png for number, png in enumerate(shots)}
+            members |= {f"{number:03d}_{task}.png": png for number, png in enumerate(shots)}
     write_bytes(target, zip_bytes(members))
 
 
@@ -56,6 +56,6 @@ if __name__ == "__main__":
             ),
             dict(zip(params.tasks, inputs.grasps, strict=True)),
             snakemake.output.pictures,
-            (DemonstrationSettings.check(params.settings), CameraSettings.check(params.renders)),
+            (SceneSettings.check(params.settings), CameraSettings.check(params.renders)),
             params.seed,
         )

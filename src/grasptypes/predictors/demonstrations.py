@@ -25,7 +25,7 @@ from grasptypes.seeds import rng
 from grasptypes.settings.demonstrations import DemonstrationTable
 from grasptypes.settings.predictors import PredictorSettings
 
-# Tasks that can be shown, in the order of the images in an archive.
+# Tasks that can be shown; in an archive, images show them in turn.
 TASKS = ("handoff", "use")
 # What no demonstration in training shares with those of the test: the image, also the object, or
 # also the action with which it is used.
@@ -85,7 +85,7 @@ def read_features(paths: Iterable[str | Path]) -> Demonstrations:
         views, rest = divmod(len(found), len(TASKS))
         if rest:
             raise InputError(path, NO_TASK, f"{len(found)} images of {len(TASKS)} tasks")
-        shown = {"task": np.repeat(TASKS, views), "view": np.tile(np.arange(views), len(TASKS))}
+        shown = {"task": np.tile(TASKS, views), "view": np.repeat(np.arange(views), len(TASKS))}
         tables.append(pd.DataFrame({"object": path.stem, **shown}))
         parts.append(found)
     return Demonstrations(pd.concat(tables, ignore_index=True), np.concatenate(parts))

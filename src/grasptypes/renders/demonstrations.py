@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 import pandas as pd
@@ -18,6 +18,7 @@ from grasptypes.hands.states import HandStates
 from grasptypes.objects.object_files import Surface
 from grasptypes.renders.gallery import CREASE_RAD, hand_parts, state_of
 from grasptypes.renders.gallery_views import finger_points
+from grasptypes.renders.grasp_film import moved
 from grasptypes.renders.randomisation import draw_view
 from grasptypes.renders.renderer import Camera, Views
 from grasptypes.renders.scene import Part, unit
@@ -25,7 +26,7 @@ from grasptypes.seeds import rng
 from grasptypes.settings.demonstrations import (
     DEMONSTRATIONS,
     Body,
-    DemonstrationSettings,
+    SceneSettings,
     Use,
     read_demonstrations,
 )
@@ -35,7 +36,7 @@ Array = NDArray[np.float64]
 # Vertices this close to the outermost one of a part belong to the place where it acts.
 END_M = 0.003
 ROUGHNESS = 0.7
-# Share of an object's vertices, 3 mm apart, that tell how near a hand is.
+# Of an object's vertices, which are 3 mm apart, every tenth tells how near a hand is.
 OBJECT_STEP = 10
 
 
@@ -56,7 +57,7 @@ class Shown:
     hand: Hand
 
 
-def uses(shown: Shown, grasps: pd.DataFrame, settings: DemonstrationSettings) -> list[list[Part]]:
+def uses(shown: Shown, grasps: pd.DataFrame, settings: SceneSettings) -> list[list[Part]]:
     """Scenes (z up) of an object in use, one per grasp; hands that touch the bodies least first.
 
     Args:
@@ -81,9 +82,7 @@ def uses(shown: Shown, grasps: pd.DataFrame, settings: DemonstrationSettings) ->
     return _first(found, settings.grasps)
 
 
-def handovers(
-    shown: Shown, grasps: pd.DataFrame, settings: DemonstrationSettings
-) -> list[list[Part]]:
+def handovers(shown: Shown, grasps: pd.DataFrame, settings: SceneSettings) -> list[list[Part]]:
     """Scenes (z up) of an object that a second, open hand is about to take, one per grasp.
 
     The second hand approaches for another grasp of the object, that which is farthest from the
@@ -113,7 +112,13 @@ def handovers(
 
 
 def _first(found: list[tuple[float, list[Part]]], most: int) -> list[list[Part]]:
-    """The scenes with the lowest numbers."""
+    """The scenes with the lowest numbers.
+
+    Raises:
+        InputError: there is none.
+    """
+    if not found:
+        raise InputError("data/grasps", "", "no valid grasp to show")
     return [scene for _, scene in sorted(found, key=lambda one: one[0])[:most]]
 
 
@@ -121,7 +126,7 @@ def pictures(
     scenes: Sequence[Sequence[Part]],
     camera: Camera,
     draws: tuple[str, int],
-    settings: DemonstrationSettings,
+    settings: SceneSettings,
 ) -> Iterator[bytes]:
     """PNG files of the scenes in turn, each from a random side.
 
@@ -134,15 +139,6 @@ def pictures(
         random = rng("demonstration", name, draws[1])
         pose, _ = draw_view(vertices, settings.view, camera.settings, random)
         yield from Views(camera, parts, pose[None], name, draws[1]).pngs()
-
-
-def moved(parts: Sequence[Part], T: Array) -> list[Part]:
-    """The parts after a motion (4, 4)."""
-    turn, shift = T[:3, :3], T[:3, 3]
-    return [
-        replace(part, vertices=part.vertices @ turn.T + shift, normals=part.normals @ turn.T)
-        for part in parts
-    ]
 
 
 def body_part(body: Body) -> Part:

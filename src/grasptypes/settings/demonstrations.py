@@ -86,12 +86,17 @@ def read_demonstrations(path: str | Path = DEMONSTRATIONS) -> DemonstrationTable
     return DemonstrationTable.check(read_yaml(path), path)
 
 
-class DemonstrationSettings(Settings):
-    """Images of objects that are used or handed over, as the input that tells a task."""
+class SceneSettings(Settings):
+    """Images of objects that are used or handed over."""
 
     views: int = setting("images of each object and task", ge=5, le=1000)
     grasps: int = setting("grasps of each object and task that are shown", ge=1, le=1000)
     handover_m: float = setting("gap between the hands, or hand and object", ge=0, le=1)
     view: ViewDraws
+
+
+class DemonstrationSettings(SceneSettings):
+    """Such images as the input that tells a task."""
+
     missing: Share = setting("share of the training examples without a demonstration")
     sheet: RenderSheet

@@ -101,7 +101,7 @@ def test_files_hold_the_same_number_of_images_of_each_task(tmp_path):
     array = np.arange(8.0, dtype=np.float32)[:, None]
     write_npz(tmp_path / "mug.npz", {"none": array})
     found = read_features([tmp_path / "mug.npz"])
-    assert found.index["task"].tolist() == ["handoff"] * 4 + ["use"] * 4
+    assert found.index["task"].tolist() == ["handoff", "use"] * 4
     assert found.features.ravel().tolist() == list(range(8))
     write_npz(tmp_path / "mug.npz", {"none": array[:7]})
     with pytest.raises(InputError, match="7 images of 2 tasks"):

@@ -82,6 +82,8 @@ def test_objects_without_a_use_or_the_part_are_errors():
     for name, part, message in (("ball", "skin", "uses.ball"), ("apple", "skin", "'flesh' is not")):
         with pytest.raises(InputError, match=message):
             uses(ball(name, part), grasps((1, 0, 0)), PARAMS.demonstrations)
+    with pytest.raises(InputError, match="no valid grasp"):
+        handovers(ball("apple", "flesh"), grasps(), PARAMS.demonstrations)
 
 
 def test_a_table_names_known_actions_and_two_directions():
