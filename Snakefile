@@ -98,6 +98,7 @@ localrules:
     compare_kind_sizes,
     tabulate_general,
     publish_general,
+    publish_demonstrations,
     plot_folds,
     plot_losses,
 

@@ -1,4 +1,4 @@
-# Model (f): the task is told by a second image, of another object at work. `snakemake reports/demonstrations.csv`
+# Model (f): the task is told by a second image, of another object at work. `snakemake demonstrations`
 # A separate target, since no other result needs it.
 from grasptypes.settings.demonstrations import DEMONSTRATIONS, read_demonstrations
 
@@ -113,3 +113,29 @@ rule tabulate_demonstrations:
         "Tabulating the model that is shown the task"
     script:
         "../scripts/tabulate_demonstrations.py"
+
+
+rule publish_demonstrations:
+    input:
+        trials=rules.tabulate_demonstrations.input.trials,
+        features=expand(rules.describe_demonstrations.output.features, object=DEMONSTRATED),
+    output:
+        runs="reports/demonstration_runs.json",
+    params:
+        settings=settings("predictors") | {"demonstrations": settings("demonstrations", "sheet")},
+        tracking=settings("tracking"),
+        hand=Path(config["hand"]).name,
+        code=script_hash("publish_demonstrations"),
+    message:
+        "Publishing the model that is shown the task to MLflow"
+    script:
+        "../scripts/publish_demonstrations.py"
+
+
+rule demonstrations:
+    input:
+        rules.tabulate_demonstrations.output,
+        rules.plot_demonstrations.output,
+        rules.publish_demonstrations.output,
+    message:
+        "Demonstrations rendered, learnt from and published"

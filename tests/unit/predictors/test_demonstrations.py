@@ -22,6 +22,7 @@ from grasptypes.predictors.demonstrations import (
 from grasptypes.predictors.examples import assemble
 from grasptypes.predictors.predictor import VARIANTS
 from grasptypes.predictors.scoring import METRIC_SCHEMA
+from grasptypes.runs.demonstration_runs import demonstration_records
 from grasptypes.settings.demonstrations import DemonstrationTable, Use, read_demonstrations
 
 NAMES = [f"{name}_{number}" for number in range(3) for name in OBJECTS]
@@ -94,6 +95,12 @@ def test_a_wrong_demonstration_misleads_and_none_leaves_the_task_open():
     table = summarize(found.assign(**source, model="demonstration"), others)
     DEMONSTRATION_SCHEMA.validate(table)
     assert table["model"].tolist() == ["no_task", *["demonstration"] * 9]
+    records = demonstration_records(found.assign(**source, model="f"), {}, (1, 2), {"hand": "h"})
+    assert [record.name for record in records] == [f"published f, new {name}" for name in SPLITS]
+    assert {len(record.children) for record in records} == {4 * SETTINGS.seeds}
+    for record, split in zip(records, SPLITS, strict=True):
+        assert record.metrics["angular_similarity"] == pytest.approx(means["right"][split])
+        assert record.metrics["wrong.angular_similarity"] == pytest.approx(means["wrong"][split])
     assert f"| actions | wrong | {table.sim_mean[8]:.3f} ± " in markdown(table)
 
 
