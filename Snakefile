@@ -141,6 +141,7 @@ rule results:
         rules.plot_renders.output,
         rules.analyse_labels.output if COMPARED else [],
         rules.tabulate_types.output,
+        rules.plot_misclassified.output,
         rules.plot_folds.output,
         rules.plot_losses.output,
 

@@ -29,13 +29,14 @@ import torch
 from grasptypes.labels.samples import read_samples
 from grasptypes.predictors.backbone import Backbone, load_backbone
 from grasptypes.predictors.examples import assemble
-from grasptypes.predictors.features import extract, read_inputs, read_pictures
+from grasptypes.predictors.features import extract, read_inputs
 from grasptypes.predictors.folds import FOLD_SCHEMA
 from grasptypes.predictors.members import members_by_group
-from grasptypes.predictors.predictor import VARIANTS, Variant
 from grasptypes.predictors.protocol import try_splits
 from grasptypes.predictors.scoring import SHORT
+from grasptypes.predictors.variants import VARIANTS, Variant
 from grasptypes.predictors.weights import BackboneRecord
+from grasptypes.renders.archives import read_pictures
 from grasptypes.settings.params import Params, checkout_params
 from grasptypes.settings.predictors import PredictorSettings
 from grasptypes.tables import read_table, write_table

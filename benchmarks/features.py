@@ -14,9 +14,11 @@ import torchvision
 from benchmarks.figures import Figure, rates, seconds
 
 from grasptypes.predictors.backbone import load_backbone
-from grasptypes.predictors.features import NO_TASK, extract, read_pictures
+from grasptypes.predictors.features import extract
 from grasptypes.predictors.weights import Weights, find_weights
+from grasptypes.renders.archives import read_pictures
 from grasptypes.settings.params import Params
+from grasptypes.settings.predictors import NO_TASK
 
 
 def measure(settings: Mapping[str, Any], params: Params) -> Iterator[Figure]:

@@ -23,7 +23,6 @@ from scipy.special import expit
 from grasptypes.kinds.names import shape_of
 from grasptypes.labels.samples import LABELS, read_samples
 from grasptypes.predictors.explanation import blurred, explain, small
-from grasptypes.predictors.features import read_pictures
 from grasptypes.predictors.general_examples import family_folds
 from grasptypes.predictors.general_files import (
     kind_families,
@@ -39,6 +38,7 @@ from grasptypes.predictors.photographs import PHOTOGRAPHS
 from grasptypes.predictors.prediction import Predictor
 from grasptypes.predictors.shown import Shown
 from grasptypes.predictors.strangeness import Strangeness
+from grasptypes.renders.archives import read_pictures
 from grasptypes.renders.depth_images import Intrinsics, longest_extent
 from grasptypes.renders.foreground import objects_in
 from grasptypes.renders.photos import Box, read_whole

@@ -13,12 +13,12 @@ from tests.unit.settings import PARAMS, RAW
 from grasptypes.labels.samples import COUNTS, TYPES, samples_from_counts
 from grasptypes.predictors.backbone import KINDS, untrained_backbone
 from grasptypes.predictors.examples import Examples, assemble
-from grasptypes.predictors.features import NO_TASK
 from grasptypes.predictors.folds import split
-from grasptypes.predictors.predictor import VARIANTS, Architecture, BatchedMLP
+from grasptypes.predictors.predictor import Architecture, BatchedMLP
 from grasptypes.predictors.predictor_files import ModelCard, write_predictor
+from grasptypes.predictors.variants import VARIANTS
 from grasptypes.predictors.weights import Weights, weights_file
-from grasptypes.settings.predictors import FineTuning
+from grasptypes.settings.predictors import NO_TASK, FineTuning
 from grasptypes.yaml_files import merge
 
 ROOT = Path(__file__).parents[2]

@@ -26,6 +26,16 @@ def find_spec(name, package=None):
     return None if name.split(".")[0] in {names!r} else found(name, package)
 importlib.util.find_spec = find_spec  # torch asks whether others are installed
 """
+# Scripts of the main job and its reports that only read tables, by their first word.
+LIGHT = ("analyse", "compare", "plot", "summarise", "tabulate")
+# These read what `general` or a plan answers.
+GENERAL = {
+    "analyse_general",
+    "compare_plans",
+    "tabulate_general",
+    "tabulate_generalisation",
+    "tabulate_scan_plans",
+}
 OPTIONAL = sorted({module for modules in EXTRAS.values() for module in modules})
 
 
@@ -48,6 +58,16 @@ def test_every_module_of_an_extra_is_a_requirement_of_it() -> None:
         for module in modules:
             name = DISTRIBUTIONS.get(module, module).replace("_", "-")
             assert f"{name}=" in stated or f"{name}>" in stated, (extra, module)
+
+
+def test_tables_and_figures_import_no_network_and_no_store() -> None:
+    """They are many jobs, and each import would cost every one of them seconds."""
+    folder = ROOT / "workflow" / "scripts"
+    names = [path.stem for path in folder.glob("*.py") if path.stem.split("_")[0] in LIGHT]
+    names = sorted({*names, "label_grasps", "label_published", "split_folds"} - GENERAL)
+    assert len(names) > 15
+    result = without(["torch", "mlflow", "pybullet"], f"import {', '.join(names)}", folder)
+    assert result.returncode == 0, result.stderr
 
 
 def test_the_core_needs_no_extra(tmp_path: Path) -> None:

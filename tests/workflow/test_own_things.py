@@ -77,7 +77,8 @@ def test_without_published_labels_nothing_of_them_is_planned(repository: Reposit
 
 
 def test_a_mesh_with_a_measured_map_gets_samples_of_three_tasks(repository: Repository) -> None:
-    add_own_things(repository, **{"objects.names": [], "labels": ["simulated"]})
+    few = {"objects.names": [], "labels": ["simulated"], "contact_maps.sessions": 2}
+    add_own_things(repository, **few)
     repository.snakemake("data/samples.csv")
     samples = pd.read_csv(repository.path / "data/samples.csv")
     assert sorted(samples.task) == sorted(TASKS)

@@ -124,7 +124,12 @@ def test_dvc_shows_scores_stages_and_pictures_offline(changed: Repository) -> No
 
 
 @pytest.mark.parametrize(
-    "command", [("snakemake", "-j2", "predictors", "all"), ("dvc", "repro")], ids=" ".join
+    "command",
+    [
+        ("dvc", "repro"),  # it runs Snakemake
+        pytest.param(("snakemake", "-j2", "predictors", "all"), marks=pytest.mark.slow),
+    ],
+    ids=" ".join,
 )
 def test_a_second_run_is_refused_and_a_killed_one_goes_on(
     changed: Repository, complete: Repository, command: tuple[str, ...]

@@ -31,6 +31,27 @@ rule tabulate_types:
         "../scripts/tabulate_types.py"
 
 
+# What each model gets wrong. The names are those in MLflow, which shows them.
+rule plot_misclassified:
+    input:
+        predictions=rules.tabulate_types.input.predictions,
+        samples=rules.tabulate_types.input.samples,
+        pictures=expand(rules.render_object.output.pictures, object=OBJECTS),
+    output:
+        figures=expand(
+            "reports/figures/misclassified_{labels}_{model}.png", labels=LABELS, model=MODELS
+        ),
+    params:
+        names=NAMES,
+        labels=LABELS,
+        objects=OBJECTS,
+        code=script_hash("plot_misclassified"),
+    message:
+        "Drawing the images that the models get wrong"
+    script:
+        "../scripts/plot_misclassified.py"
+
+
 rule tabulate_objects:
     input:
         predictions=rules.tabulate_types.input.predictions,

@@ -19,6 +19,8 @@ rule publish_runs:
             *rules.plot_folds.output,
             *rules.plot_losses.output,
         ],
+        # Each is shown with its model, in the order of the inputs.
+        misclassified=rules.plot_misclassified.output.figures,
     output:
         runs="reports/runs.json",
     params:

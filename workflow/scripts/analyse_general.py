@@ -13,7 +13,6 @@ from grasptypes.jobs import job
 from grasptypes.labels.dataset import dataset_schema
 from grasptypes.labels.samples import LABELS, TYPES, read_samples
 from grasptypes.objects.object_files import read_properties
-from grasptypes.predictors.features import read_pictures
 from grasptypes.predictors.general_protocol import (
     ANSWER_SCHEMA,
     KINDS,
@@ -24,6 +23,7 @@ from grasptypes.predictors.general_protocol import (
 )
 from grasptypes.predictors.metrics import SIGMOID_THRESHOLD
 from grasptypes.predictors.prediction import spelled
+from grasptypes.renders.archives import read_pictures
 from grasptypes.reports.general_analysis import (
     CONFUSION_SCHEMA,
     HALVES,

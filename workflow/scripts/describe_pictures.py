@@ -7,9 +7,9 @@ import torch
 
 from grasptypes.jobs import job
 from grasptypes.predictors.backbone import load_backbone
-from grasptypes.predictors.features import read_pictures
 from grasptypes.predictors.general_backbone import describe, weights_of
 from grasptypes.predictors.general_files import write_pictures
+from grasptypes.renders.archives import read_pictures
 from grasptypes.settings.predictors import BackboneSettings
 
 

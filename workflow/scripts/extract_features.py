@@ -8,8 +8,9 @@ import torch
 from grasptypes.files import write_npz
 from grasptypes.jobs import job
 from grasptypes.predictors.backbone import load_backbone
-from grasptypes.predictors.features import encodings, extract, read_pictures
+from grasptypes.predictors.features import encodings, extract
 from grasptypes.predictors.weights import BackboneRecord
+from grasptypes.renders.archives import read_pictures
 from grasptypes.settings.predictors import FeatureSettings
 
 

@@ -10,7 +10,7 @@ from grasptypes.labels.dataset import VALID, dataset_schema
 from grasptypes.labels.grasp_type import thresholds_of
 from grasptypes.labels.label_pictures import save_figure
 from grasptypes.labels.label_tree import draw_label_tree, typical_grasps
-from grasptypes.reports.session_pictures import read_named_pictures
+from grasptypes.renders.archives import read_named_pictures
 from grasptypes.settings.grasp_types import LabellingRule
 from grasptypes.tables import read_table
 

@@ -6,7 +6,7 @@ import numpy as np
 
 from grasptypes.files import write_bytes
 from grasptypes.jobs import job
-from grasptypes.predictors.features import read_pictures
+from grasptypes.renders.archives import read_pictures
 from grasptypes.renders.renderer import png_bytes
 from grasptypes.reports.sheets import Group, Tile, sheet
 from grasptypes.settings.renders import RenderSheet

@@ -7,8 +7,9 @@ from grasptypes.hands.hand import Hand
 from grasptypes.hands.reading import load_hand
 from grasptypes.jobs import job
 from grasptypes.labels.dataset import dataset_schema
+from grasptypes.renders.archives import read_named_pictures
 from grasptypes.renders.renderer import png_bytes
-from grasptypes.reports.session_pictures import read_named_pictures, session_groups
+from grasptypes.reports.session_pictures import session_groups
 from grasptypes.reports.sheets import sheet
 from grasptypes.settings.renders import SessionSheet
 from grasptypes.tables import read_table

@@ -16,10 +16,10 @@ if __name__ == "__main__":
             for name, files in snakemake.input.items()
         }
         files = [inputs.pop(name) for name in ("metrics", "curves", "tensors", "cards")]
-        figures = inputs.pop("figures")
+        figures, own = inputs.pop("figures"), inputs.pop("misclassified")
         models = [
-            TrainedModel(*parts, times_ms(parts[-1]), hand)
-            for *parts, hand in zip(*files, snakemake.params.hands, strict=True)
+            TrainedModel(*parts, times_ms(parts[-1]), hand, (figure,))
+            for *parts, figure, hand in zip(*files, own, snakemake.params.hands, strict=True)
         ]
         store = Store(TrackingSettings.model_validate(snakemake.params.tracking))
         keys = publish(models, snakemake.params.predictors, inputs, store, figures)

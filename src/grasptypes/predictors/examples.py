@@ -10,9 +10,9 @@ import pandas as pd
 
 from grasptypes.errors import InputError
 from grasptypes.labels.samples import COUNTS, TYPES
-from grasptypes.predictors.features import NO_TASK
 from grasptypes.predictors.metrics import shares
-from grasptypes.predictors.predictor import TASK_LAYER, Variant
+from grasptypes.predictors.variants import TASK_LAYER, Variant
+from grasptypes.settings.predictors import NO_TASK
 
 
 @dataclass(frozen=True)

@@ -2,24 +2,20 @@
 
 from __future__ import annotations
 
-import io
-import zipfile
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 
 import numpy as np
 import torch
-from PIL import Image, UnidentifiedImageError
 
-from grasptypes.errors import InputError
 from grasptypes.files import read_npz
 from grasptypes.predictors.backbone import Backbone
-
-NO_TASK = "none"  # the encoding without a task
+from grasptypes.renders.archives import read_pictures
+from grasptypes.settings.predictors import NO_TASK
 
 
 def encodings(tasks: Mapping[str, int]) -> dict[str, int]:
-    """Colour shift of each encoding: 0 for ``none``, and that of each task.
+    """Colour shift of each encoding: 0 for :data:`NO_TASK`, and that of each task.
 
     Args:
         tasks: colour shift of each task, in the order of the task vector.
@@ -33,29 +29,6 @@ def shift_colours(pictures: np.ndarray, shift: int) -> np.ndarray:
     Paper, section III-D. Args: images (..., 3) uint8. Returns: the same shape and type.
     """
     return np.clip(pictures.astype(np.int16) + shift, 0, 255).astype(np.uint8)
-
-
-def read_pictures(path: str | Path) -> np.ndarray:
-    """Images of a data/renders archive, sorted by name: (N, H, W, 3) uint8.
-
-    Raises:
-        InputError: the file is not an archive, or a member is not an image.
-    """
-    try:
-        with zipfile.ZipFile(path) as archive:
-            members = {name: archive.read(name) for name in sorted(archive.namelist())}
-    except (OSError, zipfile.BadZipFile) as error:
-        raise InputError(path, "", f"cannot be read as a ZIP archive: {error}") from error
-    pictures = []
-    for name, content in members.items():
-        try:
-            with Image.open(io.BytesIO(content)) as picture:
-                pictures.append(np.asarray(picture.convert("RGB")))
-        except (UnidentifiedImageError, OSError) as error:
-            raise InputError(path, name, f"not an image: {error}") from error
-    if not pictures:
-        raise InputError(path, "", "contains no images")
-    return np.stack(pictures)
 
 
 def read_inputs(

@@ -13,9 +13,9 @@ from grasptypes.objects.variants import base_of, variant_names
 from grasptypes.predictors.ceilings import constant_of_others
 from grasptypes.predictors.examples import Examples, assemble
 from grasptypes.predictors.members import members_by_object
-from grasptypes.predictors.predictor import VARIANTS
 from grasptypes.predictors.protocol import try_splits
 from grasptypes.predictors.scoring import METRIC_SCHEMA, SHORT
+from grasptypes.predictors.variants import VARIANTS
 from grasptypes.settings.predictors import PredictorSettings, VariantTrial
 
 Inputs = dict[str, dict[str, np.ndarray]]

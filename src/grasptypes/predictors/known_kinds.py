@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import io
-import zipfile
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -14,6 +13,7 @@ from PIL import Image
 from grasptypes.files import write_bytes, zip_bytes
 from grasptypes.kinds.names import shape_of
 from grasptypes.predictors.memory import Memory
+from grasptypes.renders.archives import read_named_pictures
 
 LOOKS = "known_kinds.zip"
 
@@ -58,9 +58,7 @@ def write_looks(pictures: Mapping[str, np.ndarray], size_px: int, path: str | Pa
 
 def read_looks(names: Sequence[str], path: str | Path) -> list[np.ndarray]:
     """The small images (S, S, 3) uint8 of some kinds."""
-    with zipfile.ZipFile(path) as archive:
-        files = [io.BytesIO(archive.read(f"{name}.jpg")) for name in names]
-    return [np.asarray(Image.open(file).convert("RGB")) for file in files]
+    return list(read_named_pictures(path, [f"{name}.jpg" for name in names]).values())
 
 
 def _kind_of(name: str) -> str:

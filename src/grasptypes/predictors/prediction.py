@@ -18,13 +18,13 @@ from grasptypes.predictors.explanation import explain, small
 from grasptypes.predictors.general_predictor import GENERAL, GeneralNetwork, load_general
 from grasptypes.predictors.known_kinds import nearest
 from grasptypes.predictors.known_size import facts_of_size
-from grasptypes.predictors.predictor import VARIANTS
 from grasptypes.predictors.predictor_files import (
     ModelCard,
     PredictorNetwork,
     load_predictor,
 )
 from grasptypes.predictors.shown import Hints, Photo, Shown, look
+from grasptypes.predictors.variants import VARIANTS
 from grasptypes.predictors.weights import find_weights
 from grasptypes.renders.depth_images import Intrinsics
 from grasptypes.renders.photos import Box

@@ -1,4 +1,4 @@
-"""The predictors of the paper's Table I: their inputs, outputs, and head."""
+"""The head of the paper's predictors: its sizes, and many of them computed together."""
 
 from __future__ import annotations
 
@@ -8,43 +8,11 @@ from dataclasses import dataclass, replace
 import torch
 from torch import Tensor, nn
 
+from grasptypes.predictors.variants import TASK_LAYER
 from grasptypes.seeds import seed
 
 OUTPUT_START = 0.1  # scale of the last layer's initial weights, relative to He initialisation
 LAYERS = 4  # fully connected layers of the head (paper, section III-D)
-TASK_LAYER = 2  # the layer at which the task vector enters (likewise)
-
-
-@dataclass(frozen=True)
-class Variant:
-    """One row of Table I.
-
-    Attributes:
-        row: letter in the paper's table.
-        picture_shows_task: the task is encoded as a colour shift of the image.
-        task_vector: the task is appended to the input of a fully connected layer as a one-hot
-            vector.
-        joint_labels: the label contains the types of all tasks.
-        frequencies: the probability vector is how often each type occurs, instead of the same for
-            all types of the label.
-        task_layer: the layer that the vector is appended to, from 1.
-    """
-
-    row: str
-    picture_shows_task: bool
-    task_vector: bool
-    joint_labels: bool
-    frequencies: bool = False
-    task_layer: int = TASK_LAYER
-
-
-VARIANTS = {
-    "no_task": Variant("a", False, False, False),
-    "task_vector": Variant("b", False, True, False),
-    "task_in_image": Variant("c", True, False, False),
-    "ignores_task": Variant("d", False, False, True),
-    "e_mobilenet_v2": Variant("e", False, False, True, frequencies=True),
-}
 
 
 @dataclass(frozen=True)

@@ -15,7 +15,8 @@ from grasptypes.errors import InputError
 from grasptypes.files import write_bytes
 from grasptypes.predictors.backbone import Backbone, load_backbone
 from grasptypes.predictors.features import for_inference, forward, shift_colours
-from grasptypes.predictors.predictor import VARIANTS, Architecture, BatchedMLP
+from grasptypes.predictors.predictor import Architecture, BatchedMLP
+from grasptypes.predictors.variants import VARIANTS
 from grasptypes.predictors.weights import WEIGHTS_VARIABLE, Weights
 from grasptypes.records import Record
 from grasptypes.settings.base import Many

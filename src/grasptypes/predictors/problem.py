@@ -11,8 +11,9 @@ from grasptypes.predictors.backbone import Backbone, load_backbone
 from grasptypes.predictors.examples import Examples, assemble
 from grasptypes.predictors.features import read_inputs
 from grasptypes.predictors.folds import FOLD_SCHEMA
-from grasptypes.predictors.predictor import VARIANTS, Architecture
+from grasptypes.predictors.predictor import Architecture
 from grasptypes.predictors.predictor_files import ModelCard
+from grasptypes.predictors.variants import VARIANTS
 from grasptypes.predictors.weights import BackboneRecord
 from grasptypes.settings.predictors import PredictorSettings
 from grasptypes.tables import read_table

@@ -12,7 +12,7 @@ from grasptypes.labels.samples import TYPES
 from grasptypes.predictors.examples import Examples
 from grasptypes.predictors.members import Member
 from grasptypes.predictors.metrics import METRICS, evaluate
-from grasptypes.predictors.predictor import VARIANTS
+from grasptypes.predictors.variants import VARIANTS
 from grasptypes.predictors.weights import BackboneRecord
 
 # Prefixes of the columns of a table, by measure.

@@ -8,7 +8,7 @@ import pandera.pandas as pa
 
 from grasptypes.labels.samples import COUNTS, TYPES
 from grasptypes.predictors.metrics import METRICS, chosen, measures
-from grasptypes.predictors.predictor import VARIANTS
+from grasptypes.predictors.variants import VARIANTS
 
 KNOWN, UNSEEN = "known", "unseen"
 LOGITS = tuple(f"logit_{name}" for name in TYPES)

@@ -12,7 +12,7 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from grasptypes.predictors.predictor import VARIANTS
+from grasptypes.predictors.variants import VARIANTS
 
 LABELLED = {
     "no_task": "(a) no task",

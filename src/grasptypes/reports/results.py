@@ -9,8 +9,8 @@ import pandas as pd
 import pandera.pandas as pa
 
 from grasptypes.predictors.ceilings import ceilings, constant_of_others, counts_asked
-from grasptypes.predictors.predictor import VARIANTS
 from grasptypes.predictors.scoring import SHORT
+from grasptypes.predictors.variants import VARIANTS
 
 # Table I of the paper: similarity, accuracy, precision.
 PAPER = {

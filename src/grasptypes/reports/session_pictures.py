@@ -2,29 +2,14 @@
 
 from __future__ import annotations
 
-import io
-import zipfile
 from collections.abc import Mapping, Sequence
-from pathlib import Path, PurePath
+from pathlib import PurePath
 
-import numpy as np
 import pandas as pd
-from numpy.typing import NDArray
-from PIL import Image
 
 from grasptypes.labels.dataset import VALID
+from grasptypes.renders.archives import Picture
 from grasptypes.reports.sheets import INK, WARNING, Group, Tile
-
-Picture = NDArray[np.uint8]
-
-
-def read_named_pictures(path: str | Path) -> dict[str, Picture]:
-    """The images (H, W, 3) of a data/screenshots archive by file name."""
-    with zipfile.ZipFile(path) as archive:
-        return {
-            name: np.asarray(Image.open(io.BytesIO(archive.read(name))).convert("RGB"))
-            for name in archive.namelist()
-        }
 
 
 def session_groups(

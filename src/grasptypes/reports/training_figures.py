@@ -7,8 +7,8 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from grasptypes.predictors.predictor import VARIANTS
 from grasptypes.predictors.scoring import SHORT
+from grasptypes.predictors.variants import VARIANTS
 from grasptypes.reports.figures import (
     CONSTANT,
     LABELLED,

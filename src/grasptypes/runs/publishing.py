@@ -14,10 +14,10 @@ import pandas as pd
 
 from grasptypes.errors import InputError
 from grasptypes.files import file_sha256
-from grasptypes.predictors.features import read_pictures
 from grasptypes.predictors.metrics import METRICS
 from grasptypes.predictors.scoring import CURVE_SCHEMA, METRIC_SCHEMA
 from grasptypes.predictors.weights import BackboneRecord
+from grasptypes.renders.archives import read_pictures
 from grasptypes.runs.tracking import RunRecord, Store, TrainedModel
 from grasptypes.tables import read_table
 from grasptypes.versions.git import git
@@ -27,7 +27,8 @@ logger = logging.getLogger("grasptypes")
 NOTE = """\
 Model `{model}`, trained on {labels} labels of the hand {hand}. Metrics are means over {runs} runs,
 one for each fold and seed: the child runs. `_sd` is their standard deviation; losses are curves
-over epochs. The artifacts hold the predictor and, under *figures*, tables and curves of all models.
+over epochs. The artifacts hold the predictor and, under *figures*, the images that this model gets
+wrong, and tables and curves of all models.
 To see models side by side, select their runs and press *Compare*.
 """
 
@@ -47,7 +48,7 @@ def publish(
     Args:
         settings: the `predictors` section of params.yaml that the models were trained with.
         data: what they were made from, by name: `backbone`, `renders` and others.
-        figures: shown with each model.
+        figures: shown with every model.
 
     Returns:
         Name of each parent run to its key.
@@ -65,7 +66,7 @@ def publish(
         with store.opened():
             store.offer_view(METRICS)
             run = store.upsert(record)
-            store.log_figures(run, figures)
+            store.log_figures(run, [*model.figures, *figures])
             if weights is not None:
                 store.log_model(run, model, weights.path, read_pictures(data["renders"][0])[0])
         logger.info("%s: %d runs", record.name, 1 + len(record.children))

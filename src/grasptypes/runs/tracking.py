@@ -72,7 +72,10 @@ _PARAM_LENGTH = 6000  # MLflow's maximum length of a parameter
 
 @dataclass(frozen=True)
 class TrainedModel:
-    """The files of one training job, its times (milliseconds since 1970), and the labels' hand."""
+    """The files of one training job, its times (milliseconds since 1970), and the labels' hand.
+
+    The figures are those that show this model alone.
+    """
 
     metrics: Path
     curves: Path
@@ -80,6 +83,7 @@ class TrainedModel:
     card: Path
     times_ms: tuple[int, int]
     hand: str
+    figures: Sequence[Path] = ()
 
 
 @dataclass(frozen=True)

@@ -19,6 +19,7 @@ from grasptypes.settings.kinds import KindSettings
 from grasptypes.settings.objects import ObjectSettings, TaskSettings
 from grasptypes.settings.physics import GraspTestSettings
 from grasptypes.settings.predictors import (
+    NO_TASK,
     BackboneSettings,
     FeatureSettings,
     FoldSettings,
@@ -33,8 +34,6 @@ from grasptypes.settings.tasks import TASKS, read_tasks
 from grasptypes.yaml_files import read_yaml
 
 PARAMS = "params.yaml"
-# Name for images and features without a task.
-NO_TASK = "none"
 
 
 def _is_a_task(name: str) -> str:

@@ -8,6 +8,8 @@ from pydantic import Field
 
 from grasptypes.settings.base import Settings, Share, Triple, Unique, setting
 
+NO_TASK = "none"  # images and features without a task, next to those of the tasks
+
 
 class BackboneSettings(Settings):
     """The network whose features the predictors read."""

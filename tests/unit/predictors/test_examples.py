@@ -7,7 +7,7 @@ import pytest
 from grasptypes.errors import InputError
 from grasptypes.labels.samples import COUNTS, LABELS
 from grasptypes.predictors.examples import assemble
-from grasptypes.predictors.predictor import VARIANTS
+from grasptypes.predictors.variants import VARIANTS
 
 
 def row_of(examples, **where):

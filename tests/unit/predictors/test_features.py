@@ -6,14 +6,12 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from grasptypes.errors import InputError
 from grasptypes.files import write_bytes, write_npz, zip_bytes
 from grasptypes.predictors.backbone import KINDS, untrained_backbone
 from grasptypes.predictors.features import (
     encodings,
     extract,
     read_inputs,
-    read_pictures,
     shift_colours,
 )
 
@@ -37,27 +35,6 @@ def test_the_shift_is_clipped():
     shifted = shift_colours(np.array([0, 9, 100, 250], dtype=np.uint8), -10)
     np.testing.assert_array_equal(shifted, [0, 0, 90, 240])
     assert shifted.dtype == np.uint8
-
-
-def test_pictures_survive_the_archive(pictures, tmp_path):
-    members = {f"{k:03d}.png": png(p) for k, p in enumerate(pictures)}
-    write_bytes(tmp_path / "mug.zip", zip_bytes(dict(reversed(members.items()))))
-    np.testing.assert_array_equal(read_pictures(tmp_path / "mug.zip"), pictures)
-
-
-@pytest.mark.parametrize(
-    ("content", "message"),
-    [
-        (b"no archive", "ZIP"),
-        (zip_bytes({"000.png": b"no picture"}), r"000\.png"),
-        (zip_bytes({"000.png": png(np.zeros((99, 99, 3), np.uint8))[:60]}), r"000\.png"),
-        (zip_bytes({}), "no images"),
-    ],
-)
-def test_damaged_archives_are_refused(tmp_path, content, message):
-    write_bytes(tmp_path / "mug.zip", content)
-    with pytest.raises(InputError, match=message):
-        read_pictures(tmp_path / "mug.zip")
 
 
 def test_inputs_are_features_or_encoded_pictures(tmp_path):

@@ -7,11 +7,11 @@ import pytest
 from grasptypes.errors import InputError
 from grasptypes.labels.samples import COUNTS, samples_from_counts
 from grasptypes.predictors.examples import assemble
-from grasptypes.predictors.features import NO_TASK
 from grasptypes.predictors.folds import FOLD_SCHEMA, split
 from grasptypes.predictors.members import members_by_group
-from grasptypes.predictors.predictor import VARIANTS
+from grasptypes.predictors.variants import VARIANTS
 from grasptypes.seeds import rng
+from grasptypes.settings.predictors import NO_TASK
 
 VIEWS = {"apple": 13, "mug": 10, "pan": 11}
 TASKS = ["use", "handoff", "show"]

@@ -10,8 +10,8 @@ import torch
 from grasptypes.errors import InputError
 from grasptypes.predictors.backbone import load_backbone
 from grasptypes.predictors.features import extract
-from grasptypes.predictors.predictor import VARIANTS
 from grasptypes.predictors.predictor_files import ModelCard, load_predictor, write_predictor
+from grasptypes.predictors.variants import VARIANTS
 
 IMAGES = np.random.default_rng(0).integers(0, 256, (3, 40, 40, 3), dtype=np.uint8)
 

@@ -10,9 +10,9 @@ import torch
 from grasptypes.predictors.backbone import untrained_backbone
 from grasptypes.predictors.examples import assemble
 from grasptypes.predictors.members import Member, members_by_group
-from grasptypes.predictors.predictor import VARIANTS
 from grasptypes.predictors.protocol import train_final, try_splits
 from grasptypes.predictors.scoring import CURVE_SCHEMA, PREDICTION_SCHEMA
+from grasptypes.predictors.variants import VARIANTS
 
 KEY = ("predictor", "test")
 

@@ -6,8 +6,9 @@ import numpy as np
 import pandas as pd
 
 from grasptypes.files import write_bytes, zip_bytes
+from grasptypes.renders.archives import read_named_pictures
 from grasptypes.renders.renderer import png_bytes
-from grasptypes.reports.session_pictures import read_named_pictures, session_groups
+from grasptypes.reports.session_pictures import session_groups
 from grasptypes.reports.sheets import INK, WARNING
 
 

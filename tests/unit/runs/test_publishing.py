@@ -124,6 +124,19 @@ def test_a_model_is_described_and_shows_figures_once(store, model, data, tmp_pat
     assert shown(store)[key][3] == (*TIMES_MS, "FINISHED")
 
 
+def test_each_model_shows_its_own_figures_too(store, model, data, tmp_path):
+    own, common = tmp_path / "misclassified.png", tmp_path / "table1.png"
+    for figure in (own, common):
+        figure.write_bytes(figure.name.encode())
+    publish([replace(model, figures=(own,))], SETTINGS, data, store, [common])
+    client = mlflow.MlflowClient(store.uri)
+    key = run_record(model, SETTINGS, {}).key
+    experiment = client.get_experiment_by_name(store.experiment).experiment_id
+    (run,) = client.search_runs([experiment], f"tags.`{KEY_TAG}` = '{key}'")
+    there = {Path(entry.path).name for entry in client.list_artifacts(run.info.run_id, "figures")}
+    assert there == {own.name, common.name}
+
+
 def test_runs_show_the_hand_as_a_tag_and_a_column(store, model):
     client = mlflow.MlflowClient(store.uri)
     experiment = client.get_experiment_by_name(store.experiment)
