@@ -17,13 +17,12 @@ import pandera.pandas as pa
 from grasptypes.errors import InputError
 from grasptypes.files import read_npz
 from grasptypes.predictors.examples import Examples
-from grasptypes.predictors.features import NO_TASK
 from grasptypes.predictors.members import members_by_group
 from grasptypes.predictors.scoring import METRIC_SCHEMA, SHORT, score
 from grasptypes.predictors.training import fit, predict
 from grasptypes.seeds import rng
 from grasptypes.settings.demonstrations import DemonstrationTable
-from grasptypes.settings.predictors import PredictorSettings
+from grasptypes.settings.predictors import NO_TASK, PredictorSettings
 
 # Tasks that can be shown; in an archive, images show them in turn.
 TASKS = ("handoff", "use")

@@ -20,8 +20,8 @@ from grasptypes.predictors.demonstrations import (
     try_demonstrations,
 )
 from grasptypes.predictors.examples import assemble
-from grasptypes.predictors.predictor import VARIANTS
 from grasptypes.predictors.scoring import METRIC_SCHEMA
+from grasptypes.predictors.variants import VARIANTS
 from grasptypes.runs.demonstration_runs import demonstration_records
 from grasptypes.settings.demonstrations import DemonstrationTable, Use, read_demonstrations
 
