@@ -58,6 +58,7 @@ include: "workflow/rules/learning.smk"
 include: "workflow/rules/tables.smk"
 include: "workflow/rules/details.smk"
 include: "workflow/rules/generalisation.smk"
+include: "workflow/rules/demonstrations.smk"
 include: "workflow/rules/planning.smk"
 include: "workflow/rules/tracking.smk"
 include: "workflow/rules/kinds_common.smk"
@@ -90,12 +91,14 @@ localrules:
     tabulate_types,
     tabulate_objects,
     tabulate_generalisation,
+    tabulate_demonstrations,
     tabulate_robustness,
     tabulate_scan_plans,
     summarise_scores,
     compare_kind_sizes,
     tabulate_general,
     publish_general,
+    publish_demonstrations,
     plot_folds,
     plot_losses,
 
@@ -154,7 +157,7 @@ rule all:
 # What `make report` shows: all results, and those of the other targets if they are complete.
 EXTRAS = [rules.evaluate_labels, rules.replay_grasps, rules.compare_shapes]
 EXTRAS += [rules.tabulate_generalisation, rules.compare_plans, rules.tabulate_robustness]
-EXTRAS += [rules.film_grasps]
+EXTRAS += [rules.film_grasps, rules.plot_demonstrations, rules.tabulate_demonstrations]
 
 
 rule shown:

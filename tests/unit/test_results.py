@@ -96,6 +96,19 @@ def test_the_readme_quotes_table_3() -> None:
     )
 
 
+def test_the_table_of_demonstrations_is_that_of_the_results() -> None:
+    page = (ROOT / "docs/paper.md").read_text()
+    shown = {"the image": "views", "also the object": "objects"}
+    shown["also the action, such as striking"] = "actions"
+    table = pd.read_csv(RESULTS / "demonstrations.csv", index_col=["labels", "split", "told"])
+    rows = re.findall(r"^\| ([a-z, ]+) \| (0.+) \| (0.+) \| (0.+) \|$", page, re.M)
+    assert [name for name, *_ in rows] == list(shown)
+    for name, *cells in rows:
+        for told, cell in zip(("right", "wrong", "none"), cells, strict=True):
+            row = table.loc["published", shown[name], told]
+            assert cell == f"{row.sim_mean:.3f} ± {row.sim_sd:.3f}"
+
+
 def test_results_are_quoted_and_the_others_are_not_in_git() -> None:
     quoted = "".join(page.read_text() for page in PAGES)
     assert [path.name for path in RESULTS.iterdir() if path.stem not in quoted] == []

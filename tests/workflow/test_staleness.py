@@ -34,7 +34,8 @@ SHARED = {"tabulate_results": ["tabulate_simulated", "tabulate_published", "tabu
 OUTSIDE = (
     *("objects.names", "objects.own", "objects.import", "objects.variants", "objects.variation"),
     *("objects.variant_views", "objects.comparison", "contact_maps.measured", "hold_fit"),
-    *("published", "replay", "generalisation", "plan", "predict", "labels", "kinds"),
+    *("published", "replay", "generalisation", "demonstrations", "plan", "predict", "labels"),
+    "kinds",
     *("grasp_types.fitted_on", "grasp_types.softness", "grasp_types.own_frames"),
 )
 

@@ -57,7 +57,7 @@ def film(
     pictures = []
     for moment in moments:
         state = HandStates(hand, T_object_hand[None], moment.joint_positions[None])
-        parts = [*_moved(thing, T_object_hand @ moment.T_hand_object), *hand_parts(state)]
+        parts = [*moved(thing, T_object_hand @ moment.T_hand_object), *hand_parts(state)]
         scene, node, _ = camera.scene(parts)
         scene.set_pose(node, pose)
         shown = np.concatenate([part.vertices for part in parts])
@@ -65,7 +65,8 @@ def film(
     return pictures
 
 
-def _moved(parts: Sequence[Part], T: Array) -> list[Part]:
+def moved(parts: Sequence[Part], T: Array) -> list[Part]:
+    """The parts after a motion (4, 4)."""
     return [
         replace(
             part,

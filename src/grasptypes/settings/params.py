@@ -11,6 +11,7 @@ from grasptypes.errors import InputError
 from grasptypes.settings.base import MisplacedError, Name, Settings, Unique, setting
 from grasptypes.settings.commands import PlanSettings, PredictSettings, TrackingSettings
 from grasptypes.settings.contact_maps import ContactMapSettings
+from grasptypes.settings.demonstrations import DemonstrationSettings
 from grasptypes.settings.general import GeneralSettings
 from grasptypes.settings.grasp_types import GraspTypeSettings, PublishedSettings, ReplaySettings
 from grasptypes.settings.holds import HoldFitSettings
@@ -75,6 +76,7 @@ class Params(Settings):
     )
     predictors: PredictorSettings
     generalisation: GeneralisationSettings
+    demonstrations: DemonstrationSettings
     predict: PredictSettings
     plan: PlanSettings
     tracking: TrackingSettings

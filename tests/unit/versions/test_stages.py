@@ -8,8 +8,8 @@ ROOT = Path(__file__).parents[3]
 # Their results are no outputs of a stage with parameters: they belong to separate targets, to
 # commands, or to the last two stages, which depend on the whole file.
 ELSEWHERE = {
-    "contact_pictures", "general", "generalisation", "hold_fit", "kinds", "plan", "predict",
-    "replay", "robustness", "tracking",
+    "contact_pictures", "demonstrations", "general", "generalisation", "hold_fit", "kinds",
+    "plan", "predict", "replay", "robustness", "tracking",
 }  # fmt: skip
 
 
