@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
 from grasptypes.contact_maps.contact_map import MapTask
 from grasptypes.contact_maps.hold import Hold
@@ -52,3 +52,20 @@ def hold_as_demanded(
         for task in demands(drawn.name[1], params)
     )
     return next((way for way in ways if way), None)
+
+
+def given_up(task: str, held: Iterable[str], parts: Parts, params: Params) -> list[str]:
+    """Those of the held parts that the strictest demand of a task leaves untouched."""
+    strictest, names = demands(task, params)[0], set(held)
+    return [
+        name
+        for name, part in parts.roles.items()
+        if part
+        and name in names
+        and (part.role in strictest.free or (part.hazardous and not strictest.hazard))
+    ]
+
+
+def given_up_line(task: str, names: Sequence[str]) -> str:
+    """The same for people."""
+    return f"{task}: {', '.join(names)} cannot be left untouched, as nothing else can be held"

@@ -43,6 +43,11 @@ class PlanContacts(NamedTuple):
     numbers: tuple[int, ...]
     """Session numbers, from 1; sessions that found no place to hold are left out."""
 
+    @property
+    def held_parts(self) -> set[str]:
+        """Names of the parts that somebody holds."""
+        return {name for held in self.contact_map.part for name in str(held).split("+")}
+
 
 def grips_of(types: Sequence[str]) -> tuple[str, ...]:
     """The grips that people use for some of `grasp_type.GRASP_TYPES`, without duplicates."""

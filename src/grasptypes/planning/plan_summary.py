@@ -23,6 +23,7 @@ def summarise(plan: Plan) -> dict[str, Any]:
         "chosen_by": plan.request.chosen_by,
         "contact_map": plan.contact_map,
         "parts": plan.parts and plan.parts.summary(),
+        "given_up": list(plan.given_up),
         "sessions": len(grasps),
         "tries": len(plan.attempts),
         "valid": int(grasps.valid.sum()),
