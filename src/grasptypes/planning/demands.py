@@ -47,11 +47,26 @@ def hold_as_demanded(
     drawn: MapTask, geometry: ObjectGeometry, parts: Parts, grips: Sequence[str], params: Params
 ) -> PlanContacts | None:
     """Sessions for the strictest demand of a task in which hands find places, see `hold_parts`."""
-    ways = (
-        hold_parts(*part_holds(drawn, geometry, parts, task, params.segmentation), grips)
-        for task in demands(drawn.name[1], params)
+    task = read_tasks()[drawn.name[1]]
+    for demand in demands(drawn.name[1], params):
+        found = part_holds(drawn, geometry, parts, demand, params.segmentation)
+        if contacts := hold_parts(*found, grips):
+            return contacts._replace(avoided=_avoided(task, contacts.held_parts, parts))
+    return None
+
+
+def _avoided(task: Task, held: set[str], parts: Parts) -> tuple[str, ...]:
+    """Parts that are hazardous, or that people leave free for a task, but for those that are held.
+
+    A handle for a receiver is not among them: a hand finds room beside a finger.
+    """
+    return tuple(
+        name
+        for name, part in parts.roles.items()
+        if part
+        and name not in held
+        and (part.role in task.free or (part.hazardous and task.hazard < 1))
     )
-    return next((way for way in ways if way), None)
 
 
 def given_up(task: str, held: Iterable[str], parts: Parts, params: Params) -> list[str]:

@@ -2,7 +2,7 @@
 
 A scan whose true roles are known is planned twice, with all grips and equally many sessions: where
 people hold the parts that its shape shows, and anywhere. A rule over the true roles then judges the
-valid grasps.
+grasps that a plan offers: valid ones that keep off what the found parts say hands should avoid.
 """
 
 from __future__ import annotations
@@ -14,27 +14,21 @@ from typing import Any
 import numpy as np
 import pandas as pd
 import pandera.pandas as pa
-from numpy.typing import NDArray
 
 from grasptypes.contact_maps.contact_map import MapTask
-from grasptypes.hands import configuration
-from grasptypes.hands.hand import Hand
 from grasptypes.hands.reading import load_hand
-from grasptypes.hands.surface import surface_points
 from grasptypes.labels.grasp_type import GRASP_TYPES
-from grasptypes.objects.distance_grid import DistanceGrid
 from grasptypes.planning.demands import hold_as_demanded
 from grasptypes.planning.plan_comparison import tests
 from grasptypes.planning.plan_contacts import PlanContacts, grips_of, plan_contacts
 from grasptypes.planning.sessions import PlanningContext, plan_sessions
+from grasptypes.planning.touching import touching
 from grasptypes.segmentation.known_parts import known_parts
 from grasptypes.segmentation.true_roles import TrueRoles
-from grasptypes.settings.commands import PartPlanSettings
+from grasptypes.settings.commands import PlanSettings
 from grasptypes.settings.holds import TouchSettings
 from grasptypes.settings.roles import PartRole
 from grasptypes.settings.tasks import Task, read_tasks
-
-Array = NDArray[np.float64]
 
 FOUND, ANYWHERE = "found", "none"
 COUNT = pa.Check.ge(0)
@@ -46,16 +40,19 @@ PART_PLAN_SCHEMA = pa.DataFrameSchema(
         "sessions": pa.Column(int, pa.Check.ge(1)),
         "tests": pa.Column(int, COUNT, description="hands that physics saw"),
         "valid": pa.Column(int, COUNT, description="sessions with a valid grasp"),
+        "offered": pa.Column(
+            int, COUNT, description="valid, and off the found parts that hands should avoid"
+        ),
         "held": pa.Column(
-            int, COUNT, description="valid, and most of the contact is on parts that people touch"
+            int, COUNT, description="offered, and most of the contact is on parts that people touch"
         ),
         "clear": pa.Column(
-            int, COUNT, description="valid, without contact on what is hazardous or must stay free"
+            int, COUNT, description="offered, without contact on what is hazardous or must be free"
         ),
         "handle_free": pa.Column(
-            int, COUNT, description="valid, and most of the contact leaves handles free"
+            int, COUNT, description="offered, and most of the contact leaves handles free"
         ),
-        "safe": pa.Column(int, COUNT, description="valid, without contact on hazardous parts"),
+        "safe": pa.Column(int, COUNT, description="offered, without contact on hazardous parts"),
         "accepted": pa.Column(int, COUNT, description="held and clear"),
     },
     strict=True,
@@ -71,12 +68,13 @@ GAIN_SCHEMA = pa.DataFrameSchema(
         "scans": pa.Column(str, pa.Check.isin(SETS)),
         "task": pa.Column(str),
         "parts": pa.Column(str, pa.Check.isin((FOUND, ANYWHERE))),
-        "held": pa.Column(float, SHARE, description="share of the valid grasps"),
+        "held": pa.Column(float, SHARE, description="share of the offered grasps"),
         "clear": pa.Column(float, SHARE),
         "handle_free": pa.Column(float, SHARE),
         "safe": pa.Column(float, SHARE),
         "accepted": pa.Column(float, SHARE),
         "valid": pa.Column(float, SHARE, description="share of the sessions"),
+        "offered": pa.Column(float, SHARE, description="share of the sessions"),
         "tests_per_accepted": pa.Column(float, nullable=True),
         "gain": pa.Column(float, description="of the accepted share, mean over objects"),
         "error": pa.Column(
@@ -122,16 +120,18 @@ def _judged(
     """Plan with given contacts, and count the grasps that the rule accepts."""
     attempts, grasps = plan_sessions(context, contacts, GRASP_TYPES[:-1])
     hand, grid = load_hand(context.hand), context.geometry.distance_grid
-    settings = context.params.plan.parts
+    settings = context.params.plan
+    offered = grasps[grasps.valid & ~grasps.touches_avoided]
     verdicts = [
-        accepts(contact_shares(true.at(*_touching(hand, grid, numbers, touch))), task, settings)
-        for numbers in grasps[grasps.valid].hand_configuration
+        accepts(contact_shares(true.at(*touching(hand, grid, numbers, touch))), task, settings)
+        for numbers in offered.hand_configuration
     ]
     held, clear, free, safe = np.array(verdicts, dtype=bool).reshape(-1, 4).T
     return {
-        "sessions": settings.sessions,
+        "sessions": settings.parts.sessions,
         "tests": tests(attempts),
         "valid": int(grasps.valid.sum()),
+        "offered": len(offered),
         "held": int(held.sum()),
         "clear": int(clear.sum()),
         "handle_free": int(free.sum()),
@@ -148,7 +148,7 @@ def contact_shares(touched: Sequence[PartRole]) -> list[tuple[PartRole, float]]:
 
 
 def accepts(
-    shares: Sequence[tuple[PartRole, float]], task: Task, settings: PartPlanSettings
+    shares: Sequence[tuple[PartRole, float]], task: Task, settings: PlanSettings
 ) -> tuple[bool, bool, bool, bool]:
     """Whether a grasp with these shares of contact is where people hold an object for a task.
 
@@ -165,47 +165,33 @@ def accepts(
     )
     on_handle = sum(share for part, share in shares if part.role in HANDLES)
     on_hazard = sum(share for part, share in shares if part.hazardous)
-    off = wrong <= settings.trace, on_handle <= settings.covered, on_hazard <= settings.trace
+    off = wrong <= settings.trace, on_handle <= settings.parts.covered, on_hazard <= settings.trace
     return held > 1 / 2, *off
-
-
-def _touching(
-    hand: Hand, grid: DistanceGrid, numbers: NDArray[np.float64], touch: TouchSettings
-) -> tuple[Array, Array]:
-    """Points (n, 3) of the hand's surface that touch the object, in its frame, with the normals
-    that the object has there; at least the nearest one."""
-    posed = configuration.unpack(np.asarray(numbers))
-    poses = posed.T_object_hand @ hand.link_poses(hand.couple(posed.dofs))
-    surface = surface_points(hand, touch.hand_spacing_m)
-    T = poses[surface.link_index]
-    points = np.einsum("pij,pj->pi", T[:, :3, :3], surface.points_m) + T[:, :3, 3]
-    distance_m, outward = grid.distance_and_gradient(points)
-    near = distance_m <= max(touch.touch_m, float(distance_m.min()))
-    return points[near], outward[near]
 
 
 def summary(table: pd.DataFrame) -> pd.DataFrame:
     """One row per set of scans, task and `parts`: shares, cost of an accepted grasp, and gain.
 
-    The gain is that of the share of valid grasps that are accepted, with its standard error over
+    The gain is that of the share of offered grasps that are accepted, with its standard error over
     objects.
     """
     rows = []
     sets = np.where(table.object.str.startswith(f"{YCB}_"), YCB, CONTACTDB)
     for (scans, task), of_task in table.groupby([sets, "task"], sort=False):
-        share = of_task.assign(share=of_task.accepted / of_task.valid.clip(lower=1)).pivot(
+        share = of_task.assign(share=of_task.accepted / of_task.offered.clip(lower=1)).pivot(
             index="object", columns="parts", values="share"
         )
         gain = share[FOUND] - share[ANYWHERE]
         for parts, some in of_task.groupby("parts", sort=False):
-            total = some[["sessions", "tests", "valid", *VERDICTS]].sum()
+            total = some[["sessions", "tests", "valid", "offered", *VERDICTS]].sum()
             rows.append(
                 {
                     "scans": scans,
                     "task": task,
                     "parts": parts,
-                    **{name: total[name] / max(total.valid, 1) for name in VERDICTS},
+                    **{name: total[name] / max(total.offered, 1) for name in VERDICTS},
                     "valid": total.valid / total.sessions,
+                    "offered": total.offered / total.sessions,
                     "tests_per_accepted": total.tests / total.accepted
                     if total.accepted
                     else np.nan,

@@ -42,6 +42,8 @@ class PlanContacts(NamedTuple):
     contact_map: ContactMap
     numbers: tuple[int, ...]
     """Session numbers, from 1; sessions that found no place to hold are left out."""
+    avoided: tuple[str, ...] = ()
+    """Names of the parts that hands should not touch; grasps that do are the last resort."""
 
     @property
     def held_parts(self) -> set[str]:
