@@ -13,6 +13,9 @@ from grasptypes.segmentation.parts import Parts
 from grasptypes.settings.params import Params
 from grasptypes.settings.tasks import Task, read_tasks
 
+# Roles that are made for the hand, so that a receiver wants them.
+HANDLES = ("handle", "bail", "strap")
+
 
 def demands(name: str, params: Params) -> list[Task]:
     """A task as a plan understands it, the strictest way first, and as people do it last.
@@ -47,25 +50,25 @@ def hold_as_demanded(
     drawn: MapTask, geometry: ObjectGeometry, parts: Parts, grips: Sequence[str], params: Params
 ) -> PlanContacts | None:
     """Sessions for the strictest demand of a task in which hands find places, see `hold_parts`."""
-    task = read_tasks()[drawn.name[1]]
     for demand in demands(drawn.name[1], params):
         found = part_holds(drawn, geometry, parts, demand, params.segmentation)
         if contacts := hold_parts(*found, grips):
-            return contacts._replace(avoided=_avoided(task, contacts.held_parts, parts))
+            return contacts._replace(avoided=_avoided(demand, contacts.held_parts, parts))
     return None
 
 
-def _avoided(task: Task, held: set[str], parts: Parts) -> tuple[str, ...]:
-    """Parts that are hazardous, or that people leave free for a task, but for those that are held.
+def _avoided(demand: Task, held: set[str], parts: Parts) -> tuple[str, ...]:
+    """Parts that are hazardous, or that a demand leaves free, but for those that are held.
 
-    A handle for a receiver is not among them: a hand finds room beside a finger.
+    A handle is not among them: a receiver's hand finds room beside a finger.
     """
+    free = set(demand.free) - set(HANDLES)
     return tuple(
         name
         for name, part in parts.roles.items()
         if part
         and name not in held
-        and (part.role in task.free or (part.hazardous and task.hazard < 1))
+        and (part.role in free or (part.hazardous and demand.hazard < 1))
     )
 
 

@@ -2,7 +2,7 @@
 
 A scan whose true roles are known is planned twice, with all grips and equally many sessions: where
 people hold the parts that its shape shows, and anywhere. A rule over the true roles then judges the
-grasps that a plan offers: valid ones that keep off what the found parts say hands should avoid.
+valid grasps, and once more those of them that a plan with parts puts first.
 """
 
 from __future__ import annotations
@@ -18,9 +18,9 @@ import pandera.pandas as pa
 from grasptypes.contact_maps.contact_map import MapTask
 from grasptypes.hands.reading import load_hand
 from grasptypes.labels.grasp_type import GRASP_TYPES
-from grasptypes.planning.demands import hold_as_demanded
+from grasptypes.planning.demands import HANDLES, hold_as_demanded
 from grasptypes.planning.plan_comparison import tests
-from grasptypes.planning.plan_contacts import PlanContacts, grips_of, plan_contacts
+from grasptypes.planning.plan_contacts import grips_of, plan_contacts
 from grasptypes.planning.sessions import PlanningContext, plan_sessions
 from grasptypes.planning.touching import touching
 from grasptypes.segmentation.known_parts import known_parts
@@ -30,29 +30,29 @@ from grasptypes.settings.holds import TouchSettings
 from grasptypes.settings.roles import PartRole
 from grasptypes.settings.tasks import Task, read_tasks
 
-FOUND, ANYWHERE = "found", "none"
+# With the parts that were found; of these plans only the grasps that keep off parts to avoid, which
+# come first; without parts.
+FOUND, FIRST, ANYWHERE = WAYS = ("found", "first", "none")
 COUNT = pa.Check.ge(0)
 PART_PLAN_SCHEMA = pa.DataFrameSchema(
     {
         "object": pa.Column(str),
         "task": pa.Column(str),
-        "parts": pa.Column(str, pa.Check.isin((FOUND, ANYWHERE))),
+        "parts": pa.Column(str, pa.Check.isin(WAYS)),
         "sessions": pa.Column(int, pa.Check.ge(1)),
         "tests": pa.Column(int, COUNT, description="hands that physics saw"),
         "valid": pa.Column(int, COUNT, description="sessions with a valid grasp"),
-        "offered": pa.Column(
-            int, COUNT, description="valid, and off the found parts that hands should avoid"
-        ),
         "held": pa.Column(
-            int, COUNT, description="offered, and most of the contact is on parts that people touch"
+            int, COUNT, description="valid, and most of the contact is on parts that people touch"
         ),
         "clear": pa.Column(
-            int, COUNT, description="offered, without contact on what is hazardous or must be free"
+            int, COUNT, description="valid, without contact on what is hazardous or must stay free"
         ),
         "handle_free": pa.Column(
-            int, COUNT, description="offered, and most of the contact leaves handles free"
+            int, COUNT, description="valid, and most of the contact leaves handles free"
         ),
-        "safe": pa.Column(int, COUNT, description="offered, without contact on hazardous parts"),
+        "safe": pa.Column(int, COUNT, description="valid, without contact on hazardous parts"),
+        "offered": pa.Column(int, COUNT, description="handle_free and safe"),
         "accepted": pa.Column(int, COUNT, description="held and clear"),
     },
     strict=True,
@@ -60,21 +60,21 @@ PART_PLAN_SCHEMA = pa.DataFrameSchema(
     unique=["object", "task", "parts"],
 )
 SHARE = pa.Check.in_range(0, 1)
-VERDICTS = ("held", "clear", "handle_free", "safe", "accepted")
+VERDICTS = ("held", "clear", "handle_free", "safe", "offered", "accepted")
 # The sets of scans, and how the names of the objects of one of them begin.
 CONTACTDB, YCB = SETS = ("contactdb", "ycb")
 GAIN_SCHEMA = pa.DataFrameSchema(
     {
         "scans": pa.Column(str, pa.Check.isin(SETS)),
         "task": pa.Column(str),
-        "parts": pa.Column(str, pa.Check.isin((FOUND, ANYWHERE))),
-        "held": pa.Column(float, SHARE, description="share of the offered grasps"),
+        "parts": pa.Column(str, pa.Check.isin(WAYS)),
+        "held": pa.Column(float, SHARE, description="share of the valid grasps"),
         "clear": pa.Column(float, SHARE),
         "handle_free": pa.Column(float, SHARE),
         "safe": pa.Column(float, SHARE),
+        "offered": pa.Column(float, SHARE),
         "accepted": pa.Column(float, SHARE),
         "valid": pa.Column(float, SHARE, description="share of the sessions"),
-        "offered": pa.Column(float, SHARE, description="share of the sessions"),
         "tests_per_accepted": pa.Column(float, nullable=True),
         "gain": pa.Column(float, description="of the accepted share, mean over objects"),
         "error": pa.Column(
@@ -84,8 +84,6 @@ GAIN_SCHEMA = pa.DataFrameSchema(
     strict=True,
     ordered=True,
 )
-# Roles that are made for the hand, so that a receiver wants them.
-HANDLES = ("handle", "bail", "strap")
 
 
 def study_plans(
@@ -99,43 +97,44 @@ def study_plans(
     parts = known_parts(context.geometry, drawn.points, params.segmentation)
     anywhere = plan_contacts(drawn, None, grips, context.geometry.source)
     found = hold_as_demanded(drawn, context.geometry, parts, grips, params) or anywhere
-    return [
-        {
-            "object": context.geometry.name,
-            "task": context.task,
-            "parts": name,
-            **_judged(context, contacts, true, touch, task),
-        }
-        for name, contacts in ((FOUND, found), (ANYWHERE, anywhere))
-    ]
+    types, rows = GRASP_TYPES[:-1], []
+    for name, contacts in ((FOUND, found), (ANYWHERE, anywhere)):
+        attempts, grasps = plan_sessions(context, contacts, types)
+        judged = {name: grasps}
+        if name == FOUND:
+            judged[FIRST] = grasps[~grasps.touches_avoided]
+        for way, some in judged.items():
+            known = {"object": context.geometry.name, "task": context.task, "parts": way}
+            counts = {"sessions": params.plan.parts.sessions, "tests": tests(attempts)}
+            rows.append(known | counts | _judged(context, some, true, touch, task))
+    return rows
 
 
 def _judged(
     context: PlanningContext,
-    contacts: PlanContacts,
+    grasps: pd.DataFrame,
     true: TrueRoles,
     touch: TouchSettings,
     task: Task,
 ) -> dict[str, int]:
-    """Plan with given contacts, and count the grasps that the rule accepts."""
-    attempts, grasps = plan_sessions(context, contacts, GRASP_TYPES[:-1])
+    """How many of some grasps are valid, and how many the rule accepts."""
     hand, grid = load_hand(context.hand), context.geometry.distance_grid
-    settings = context.params.plan
-    offered = grasps[grasps.valid & ~grasps.touches_avoided]
     verdicts = [
-        accepts(contact_shares(true.at(*touching(hand, grid, numbers, touch))), task, settings)
-        for numbers in offered.hand_configuration
+        accepts(
+            contact_shares(true.at(*touching(hand, grid, numbers, touch))),
+            task,
+            context.params.plan,
+        )
+        for numbers in grasps[grasps.valid].hand_configuration
     ]
     held, clear, free, safe = np.array(verdicts, dtype=bool).reshape(-1, 4).T
     return {
-        "sessions": settings.parts.sessions,
-        "tests": tests(attempts),
-        "valid": int(grasps.valid.sum()),
-        "offered": len(offered),
+        "valid": len(verdicts),
         "held": int(held.sum()),
         "clear": int(clear.sum()),
         "handle_free": int(free.sum()),
         "safe": int(safe.sum()),
+        "offered": int((free & safe).sum()),
         "accepted": int((held & clear).sum()),
     }
 
@@ -172,31 +171,30 @@ def accepts(
 def summary(table: pd.DataFrame) -> pd.DataFrame:
     """One row per set of scans, task and `parts`: shares, cost of an accepted grasp, and gain.
 
-    The gain is that of the share of offered grasps that are accepted, with its standard error over
+    The gain is that of the share of valid grasps that are accepted, with its standard error over
     objects.
     """
     rows = []
     sets = np.where(table.object.str.startswith(f"{YCB}_"), YCB, CONTACTDB)
     for (scans, task), of_task in table.groupby([sets, "task"], sort=False):
-        share = of_task.assign(share=of_task.accepted / of_task.offered.clip(lower=1)).pivot(
+        share = of_task.assign(share=of_task.accepted / of_task.valid.clip(lower=1)).pivot(
             index="object", columns="parts", values="share"
         )
-        gain = share[FOUND] - share[ANYWHERE]
         for parts, some in of_task.groupby("parts", sort=False):
-            total = some[["sessions", "tests", "valid", "offered", *VERDICTS]].sum()
+            gain = share[parts] - share[ANYWHERE]
+            total = some[["sessions", "tests", "valid", *VERDICTS]].sum()
             rows.append(
                 {
                     "scans": scans,
                     "task": task,
                     "parts": parts,
-                    **{name: total[name] / max(total.offered, 1) for name in VERDICTS},
+                    **{name: total[name] / max(total.valid, 1) for name in VERDICTS},
                     "valid": total.valid / total.sessions,
-                    "offered": total.offered / total.sessions,
                     "tests_per_accepted": total.tests / total.accepted
                     if total.accepted
                     else np.nan,
-                    "gain": gain.mean() if parts == FOUND else 0.0,
-                    "error": gain.std() / np.sqrt(len(gain)) if parts == FOUND else 0.0,
+                    "gain": gain.mean(),
+                    "error": gain.std() / np.sqrt(len(gain)),
                 }
             )
     return pd.DataFrame(rows).round(3)
