@@ -71,6 +71,12 @@ def test_a_user_names_parts_by_name_or_colour(mallet, capsys, tmp_path, suffix, 
     assert {line.split()[-1] for line in ways if "%" in line} == {held}
 
 
+def test_a_handle_that_is_all_there_is_to_hold_is_named(mallet, capsys, tmp_path):
+    roles = roles_csv(tmp_path, "wood,handle\nsteel,blade")
+    text = inspected(mallet, capsys, "--roles", roles, "--task", "handoff")
+    assert text.endswith("handoff: wood cannot be left untouched, as nothing else can be held\n")
+
+
 def small_folder(tmp_path):
     """A checkout whose only task is strike."""
     text = yaml.safe_dump({**RAW, "tasks": {"strike": {"colour_shift": 10}}})

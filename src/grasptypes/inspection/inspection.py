@@ -11,7 +11,7 @@ import numpy as np
 from grasptypes.contact_maps.contact_map import ContactMap, MapTask, map_contacts
 from grasptypes.contact_maps.hold import Hold
 from grasptypes.objects.object_geometry import ObjectGeometry
-from grasptypes.planning.demands import demanded_holds
+from grasptypes.planning.demands import demanded_holds, given_up, given_up_line
 from grasptypes.renders.mesh_views import MESH_WORD
 from grasptypes.segmentation.known_parts import known_parts
 from grasptypes.segmentation.parts import Parts
@@ -29,11 +29,13 @@ class TaskContacts:
         holds: ways of holding, with probabilities that add up to one; empty if people hold none of
             its parts.
         contact_map: None without holds.
+        given_up: parts that the task wants untouched, and that hands may touch nevertheless.
     """
 
     task: str
     holds: Sequence[Hold]
     contact_map: ContactMap | None
+    given_up: Sequence[str]
 
     def shares(self) -> list[tuple[str, str, float]]:
         """Grip, parts and probability of each way of holding, the most likely first."""
@@ -78,6 +80,7 @@ class Inspection:
                 ]
                 for each in self.tasks
             },
+            "given_up": {each.task: list(each.given_up) for each in self.tasks},
         }
 
 
@@ -108,7 +111,9 @@ def inspect_object(
             drawn.points, drawn.part_names, (MESH_WORD, task), drawn.seed, drawn.scale, settings
         )
         seen, holds = demanded_holds(named, geometry, parts, params)
-        found.append(TaskContacts(task, holds, map_contacts(seen, holds) if holds else None))
+        touched = given_up(task, [part for hold in holds for part in hold.parts], parts, params)
+        contact_map = map_contacts(seen, holds) if holds else None
+        found.append(TaskContacts(task, holds, contact_map, touched))
     return Inspection(geometry, drawn, parts, mass_given, tuple(found))
 
 
@@ -139,4 +144,6 @@ def report(inspection: Inspection) -> str:
         for number, hold in enumerate(holds):
             head = f"{task}:" if number == 0 else ""
             lines.append(f"{head:12}{hold['probability']:5.0%}  {hold['grip']:9}{hold['part']}")
+        if touched := known["given_up"][task]:
+            lines.append(given_up_line(task, touched))
     return "\n".join(lines) + "\n"

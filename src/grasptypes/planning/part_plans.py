@@ -2,7 +2,7 @@
 
 A scan whose true roles are known is planned twice, with all grips and equally many sessions: where
 people hold the parts that its shape shows, and anywhere. A rule over the true roles then judges the
-valid grasps.
+valid grasps, and once more those of them that a plan with parts puts first.
 """
 
 from __future__ import annotations
@@ -14,35 +14,31 @@ from typing import Any
 import numpy as np
 import pandas as pd
 import pandera.pandas as pa
-from numpy.typing import NDArray
 
 from grasptypes.contact_maps.contact_map import MapTask
-from grasptypes.hands import configuration
-from grasptypes.hands.hand import Hand
 from grasptypes.hands.reading import load_hand
-from grasptypes.hands.surface import surface_points
 from grasptypes.labels.grasp_type import GRASP_TYPES
-from grasptypes.objects.distance_grid import DistanceGrid
-from grasptypes.planning.demands import hold_as_demanded
+from grasptypes.planning.demands import HANDLES, hold_as_demanded
 from grasptypes.planning.plan_comparison import tests
-from grasptypes.planning.plan_contacts import PlanContacts, grips_of, plan_contacts
+from grasptypes.planning.plan_contacts import grips_of, plan_contacts
 from grasptypes.planning.sessions import PlanningContext, plan_sessions
+from grasptypes.planning.touching import touching
 from grasptypes.segmentation.known_parts import known_parts
 from grasptypes.segmentation.true_roles import TrueRoles
-from grasptypes.settings.commands import PartPlanSettings
+from grasptypes.settings.commands import PlanSettings
 from grasptypes.settings.holds import TouchSettings
 from grasptypes.settings.roles import PartRole
 from grasptypes.settings.tasks import Task, read_tasks
 
-Array = NDArray[np.float64]
-
-FOUND, ANYWHERE = "found", "none"
+# With the parts that were found; of these plans only the grasps that keep off parts to avoid, which
+# come first; without parts.
+FOUND, FIRST, ANYWHERE = WAYS = ("found", "first", "none")
 COUNT = pa.Check.ge(0)
 PART_PLAN_SCHEMA = pa.DataFrameSchema(
     {
         "object": pa.Column(str),
         "task": pa.Column(str),
-        "parts": pa.Column(str, pa.Check.isin((FOUND, ANYWHERE))),
+        "parts": pa.Column(str, pa.Check.isin(WAYS)),
         "sessions": pa.Column(int, pa.Check.ge(1)),
         "tests": pa.Column(int, COUNT, description="hands that physics saw"),
         "valid": pa.Column(int, COUNT, description="sessions with a valid grasp"),
@@ -56,6 +52,7 @@ PART_PLAN_SCHEMA = pa.DataFrameSchema(
             int, COUNT, description="valid, and most of the contact leaves handles free"
         ),
         "safe": pa.Column(int, COUNT, description="valid, without contact on hazardous parts"),
+        "offered": pa.Column(int, COUNT, description="handle_free and safe"),
         "accepted": pa.Column(int, COUNT, description="held and clear"),
     },
     strict=True,
@@ -63,18 +60,19 @@ PART_PLAN_SCHEMA = pa.DataFrameSchema(
     unique=["object", "task", "parts"],
 )
 SHARE = pa.Check.in_range(0, 1)
-VERDICTS = ("held", "clear", "handle_free", "safe", "accepted")
+VERDICTS = ("held", "clear", "handle_free", "safe", "offered", "accepted")
 # The sets of scans, and how the names of the objects of one of them begin.
 CONTACTDB, YCB = SETS = ("contactdb", "ycb")
 GAIN_SCHEMA = pa.DataFrameSchema(
     {
         "scans": pa.Column(str, pa.Check.isin(SETS)),
         "task": pa.Column(str),
-        "parts": pa.Column(str, pa.Check.isin((FOUND, ANYWHERE))),
+        "parts": pa.Column(str, pa.Check.isin(WAYS)),
         "held": pa.Column(float, SHARE, description="share of the valid grasps"),
         "clear": pa.Column(float, SHARE),
         "handle_free": pa.Column(float, SHARE),
         "safe": pa.Column(float, SHARE),
+        "offered": pa.Column(float, SHARE),
         "accepted": pa.Column(float, SHARE),
         "valid": pa.Column(float, SHARE, description="share of the sessions"),
         "tests_per_accepted": pa.Column(float, nullable=True),
@@ -86,8 +84,6 @@ GAIN_SCHEMA = pa.DataFrameSchema(
     strict=True,
     ordered=True,
 )
-# Roles that are made for the hand, so that a receiver wants them.
-HANDLES = ("handle", "bail", "strap")
 
 
 def study_plans(
@@ -101,41 +97,44 @@ def study_plans(
     parts = known_parts(context.geometry, drawn.points, params.segmentation)
     anywhere = plan_contacts(drawn, None, grips, context.geometry.source)
     found = hold_as_demanded(drawn, context.geometry, parts, grips, params) or anywhere
-    return [
-        {
-            "object": context.geometry.name,
-            "task": context.task,
-            "parts": name,
-            **_judged(context, contacts, true, touch, task),
-        }
-        for name, contacts in ((FOUND, found), (ANYWHERE, anywhere))
-    ]
+    types, rows = GRASP_TYPES[:-1], []
+    for name, contacts in ((FOUND, found), (ANYWHERE, anywhere)):
+        attempts, grasps = plan_sessions(context, contacts, types)
+        judged = {name: grasps}
+        if name == FOUND:
+            judged[FIRST] = grasps[~grasps.touches_avoided]
+        for way, some in judged.items():
+            known = {"object": context.geometry.name, "task": context.task, "parts": way}
+            counts = {"sessions": params.plan.parts.sessions, "tests": tests(attempts)}
+            rows.append(known | counts | _judged(context, some, true, touch, task))
+    return rows
 
 
 def _judged(
     context: PlanningContext,
-    contacts: PlanContacts,
+    grasps: pd.DataFrame,
     true: TrueRoles,
     touch: TouchSettings,
     task: Task,
 ) -> dict[str, int]:
-    """Plan with given contacts, and count the grasps that the rule accepts."""
-    attempts, grasps = plan_sessions(context, contacts, GRASP_TYPES[:-1])
+    """How many of some grasps are valid, and how many the rule accepts."""
     hand, grid = load_hand(context.hand), context.geometry.distance_grid
-    settings = context.params.plan.parts
     verdicts = [
-        accepts(contact_shares(true.at(*_touching(hand, grid, numbers, touch))), task, settings)
+        accepts(
+            contact_shares(true.at(*touching(hand, grid, numbers, touch))),
+            task,
+            context.params.plan,
+        )
         for numbers in grasps[grasps.valid].hand_configuration
     ]
     held, clear, free, safe = np.array(verdicts, dtype=bool).reshape(-1, 4).T
     return {
-        "sessions": settings.sessions,
-        "tests": tests(attempts),
-        "valid": int(grasps.valid.sum()),
+        "valid": len(verdicts),
         "held": int(held.sum()),
         "clear": int(clear.sum()),
         "handle_free": int(free.sum()),
         "safe": int(safe.sum()),
+        "offered": int((free & safe).sum()),
         "accepted": int((held & clear).sum()),
     }
 
@@ -148,7 +147,7 @@ def contact_shares(touched: Sequence[PartRole]) -> list[tuple[PartRole, float]]:
 
 
 def accepts(
-    shares: Sequence[tuple[PartRole, float]], task: Task, settings: PartPlanSettings
+    shares: Sequence[tuple[PartRole, float]], task: Task, settings: PlanSettings
 ) -> tuple[bool, bool, bool, bool]:
     """Whether a grasp with these shares of contact is where people hold an object for a task.
 
@@ -165,23 +164,8 @@ def accepts(
     )
     on_handle = sum(share for part, share in shares if part.role in HANDLES)
     on_hazard = sum(share for part, share in shares if part.hazardous)
-    off = wrong <= settings.trace, on_handle <= settings.covered, on_hazard <= settings.trace
+    off = wrong <= settings.trace, on_handle <= settings.parts.covered, on_hazard <= settings.trace
     return held > 1 / 2, *off
-
-
-def _touching(
-    hand: Hand, grid: DistanceGrid, numbers: NDArray[np.float64], touch: TouchSettings
-) -> tuple[Array, Array]:
-    """Points (n, 3) of the hand's surface that touch the object, in its frame, with the normals
-    that the object has there; at least the nearest one."""
-    posed = configuration.unpack(np.asarray(numbers))
-    poses = posed.T_object_hand @ hand.link_poses(hand.couple(posed.dofs))
-    surface = surface_points(hand, touch.hand_spacing_m)
-    T = poses[surface.link_index]
-    points = np.einsum("pij,pj->pi", T[:, :3, :3], surface.points_m) + T[:, :3, 3]
-    distance_m, outward = grid.distance_and_gradient(points)
-    near = distance_m <= max(touch.touch_m, float(distance_m.min()))
-    return points[near], outward[near]
 
 
 def summary(table: pd.DataFrame) -> pd.DataFrame:
@@ -196,8 +180,8 @@ def summary(table: pd.DataFrame) -> pd.DataFrame:
         share = of_task.assign(share=of_task.accepted / of_task.valid.clip(lower=1)).pivot(
             index="object", columns="parts", values="share"
         )
-        gain = share[FOUND] - share[ANYWHERE]
         for parts, some in of_task.groupby("parts", sort=False):
+            gain = share[parts] - share[ANYWHERE]
             total = some[["sessions", "tests", "valid", *VERDICTS]].sum()
             rows.append(
                 {
@@ -209,8 +193,8 @@ def summary(table: pd.DataFrame) -> pd.DataFrame:
                     "tests_per_accepted": total.tests / total.accepted
                     if total.accepted
                     else np.nan,
-                    "gain": gain.mean() if parts == FOUND else 0.0,
-                    "error": gain.std() / np.sqrt(len(gain)) if parts == FOUND else 0.0,
+                    "gain": gain.mean(),
+                    "error": gain.std() / np.sqrt(len(gain)),
                 }
             )
     return pd.DataFrame(rows).round(3)

@@ -42,6 +42,13 @@ class PlanContacts(NamedTuple):
     contact_map: ContactMap
     numbers: tuple[int, ...]
     """Session numbers, from 1; sessions that found no place to hold are left out."""
+    avoided: tuple[str, ...] = ()
+    """Names of the parts that hands should not touch; grasps that do are the last resort."""
+
+    @property
+    def held_parts(self) -> set[str]:
+        """Names of the parts that somebody holds."""
+        return {name for held in self.contact_map.part for name in str(held).split("+")}
 
 
 def grips_of(types: Sequence[str]) -> tuple[str, ...]:

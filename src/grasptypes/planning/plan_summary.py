@@ -23,6 +23,7 @@ def summarise(plan: Plan) -> dict[str, Any]:
         "chosen_by": plan.request.chosen_by,
         "contact_map": plan.contact_map,
         "parts": plan.parts and plan.parts.summary(),
+        "given_up": list(plan.given_up),
         "sessions": len(grasps),
         "tries": len(plan.attempts),
         "valid": int(grasps.valid.sum()),
@@ -37,6 +38,7 @@ def summarise(plan: Plan) -> dict[str, Any]:
                 "branch": row.branch,
                 "margin": float(row.margin),
                 "energy": float(row.energy),
+                "touches_avoided": bool(row.touches_avoided),
                 "tries": int(row.tries),
                 "penetration_m": float(row.penetration_m),
                 "hand_configuration": [float(number) for number in row.hand_configuration],
@@ -62,8 +64,9 @@ def report(summary: Mapping[str, Any]) -> str:
     for grasp in summary["grasps"]:
         star = "*" if grasp["wanted"] else ""
         kind = f"{grasp['grasp_type']}{star}"
+        note = ", on parts to avoid" if grasp["touches_avoided"] else ""
         lines.append(
             f"{grasp['rank']:4}  {kind:18}{grasp['energy']:8.3f}  {grasp['session']:7}  "
-            f"{grasp['tries']:5}  {grasp['reason']}"
+            f"{grasp['tries']:5}  {grasp['reason']}{note}"
         )
     return "\n".join([*lines, "", "* requested type"]) + "\n"

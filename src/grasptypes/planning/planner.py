@@ -19,7 +19,7 @@ from grasptypes.hands.reading import load_hand
 from grasptypes.labels.grasp import Grasp, grasps_of
 from grasptypes.labels.grasp_type import GRASP_TYPES
 from grasptypes.objects.object_geometry import ObjectGeometry
-from grasptypes.planning.demands import hold_as_demanded
+from grasptypes.planning.demands import given_up, given_up_line, hold_as_demanded
 from grasptypes.planning.held_contacts import held_contacts
 from grasptypes.planning.plan_contacts import (
     MeasuredMap,
@@ -55,6 +55,7 @@ class Plan:
         params: parameters of the plan.
         contact_map: name of the measured map, if any.
         parts: the parts that people hold; None with a measured map.
+        given_up: parts that the task wants untouched, and that hands may touch nevertheless.
         points: points on the surface, to which `parts` belong.
         held_where: where the sessions' people hold the object; None if every place is as good.
         attempts: one row per grasp tried, labelled: columns of `grasps.ATTEMPT_SCHEMA` and
@@ -71,6 +72,7 @@ class Plan:
     params: Params
     contact_map: str | None
     parts: Parts | None
+    given_up: Sequence[str]
     points: SurfacePoints
     held_where: ContactMap | None
     attempts: pd.DataFrame
@@ -162,13 +164,16 @@ class Planner:
         name, seed_number = (MESH_WORD, task), self.params.seed
         drawn = MapTask.of_object(object, name, seed_number, settings)
         grips, parts, contacts = grips_of(request.types), None, None
+        touched: list[str] = []
         if contact_map is None:
             parts = known_parts(object, drawn.points, self.params.segmentation, roles)
             contacts = hold_as_demanded(drawn, object, parts, grips, self.params)
+            if contacts:
+                touched = given_up(task, contacts.held_parts, parts, self.params)
         held = contacts is not None
         contacts = contacts or plan_contacts(drawn, contact_map, grips, source)
         if parts:
-            self._tell_parts(parts, task, held)
+            self._tell_parts(parts, task, held, touched)
         if left_out := settings.sessions - len(contacts.numbers):
             self.tell(
                 f"skipped {left_out} of {settings.sessions} ways of holding: "
@@ -188,6 +193,7 @@ class Planner:
             params=self.params,
             contact_map=contact_map.path.name if contact_map else None,
             parts=parts,
+            given_up=touched,
             points=drawn.points,
             held_where=contacts.contact_map if held or contact_map else None,
             attempts=attempts,
@@ -195,11 +201,14 @@ class Planner:
             contacts=touching,
         )
 
-    def _tell_parts(self, parts: Parts, task: str, held: bool) -> None:
-        """Say what the parts are, and whether people hold any of them for a task."""
+    def _tell_parts(self, parts: Parts, task: str, held: bool, touched: Sequence[str]) -> None:
+        """Say what the parts are, whether people hold any of them for a task, and which hands may
+        touch although the task wants them untouched."""
         self.tell(f"parts by {parts.basis}: {described(parts)}")
         if not held:
             self.tell(f"people hold none of these for {task}: every place counts the same")
+        if touched:
+            self.tell(given_up_line(task, touched))
 
     def check_request(
         self, task: str, types: Sequence[str], mass_kg: float | None, source: str = ""

@@ -18,6 +18,7 @@ from grasptypes.labels.dataset import label_grasps
 from grasptypes.objects.object_geometry import ObjectGeometry
 from grasptypes.physics.loads import task_load
 from grasptypes.planning.plan_contacts import PlanContacts
+from grasptypes.planning.touching import touches_avoided
 from grasptypes.seeds import seed
 from grasptypes.settings.params import Params
 from grasptypes.settings.tasks import read_tasks
@@ -64,29 +65,36 @@ def plan_sessions(
     table = pd.concat(found, ignore_index=True)
     grid, settings = context.geometry.distance_grid, context.params.grasp_types
     hand = load_hand(context.hand)
-    labelled = choose(label_grasps(table, hand, grid, settings), types)
+    labelled = label_grasps(table, hand, grid, settings)
+    touch, trace = context.params.hold_fit.touch, context.params.plan.trace
+    avoided = touches_avoided(labelled, contacts, hand, grid, touch, trace)
+    labelled = choose(labelled.assign(touches_avoided=avoided), types)
     return labelled, ranked(labelled[labelled.chosen], types)
 
 
 def choose(labelled: pd.DataFrame, types: Sequence[str]) -> pd.DataFrame:
     """Labelled attempts with the column `chosen` set again, once per session.
 
-    A valid grasp of a requested type takes precedence over the one chosen by the synthesis, which
-    does not know the request.
+    A valid grasp that keeps off avoided parts, and then one of a requested type, takes precedence
+    over the one chosen by the synthesis, which knows neither.
     """
     wanted = labelled.valid & labelled.grasp_type.isin(types)
-    keys = {"other": ~wanted, "passed": ~labelled.chosen}
-    order = labelled.assign(**keys).sort_values(["session", "other", "passed", "energy"])
+    keys = {"wrong": ~labelled.valid | labelled.touches_avoided, "other": ~wanted}
+    order = labelled.assign(**keys, passed=~labelled.chosen).sort_values(
+        ["session", "wrong", "other", "passed", "energy"]
+    )
     return labelled.assign(chosen=labelled.index.isin(order.drop_duplicates("session").index))
 
 
 def ranked(labelled: pd.DataFrame, types: Sequence[str]) -> pd.DataFrame:
-    """Labelled grasps, best first: valid ones of a requested type, other valid ones, then the rest.
+    """Labelled grasps, best first: valid ones of a requested type, other valid ones, those on parts
+    that hands should avoid, then invalid ones.
 
     Each group is sorted by energy. `pose_index` keeps the position among the session's tries.
     """
     keys = {"failed": ~labelled.valid, "other": ~labelled.grasp_type.isin(types)}
-    order = labelled.assign(**keys).sort_values(["failed", "other", "energy", "session"]).index
+    by = ["failed", "touches_avoided", "other", "energy", "session"]
+    order = labelled.assign(**keys).sort_values(by).index
     table = labelled.loc[order].reset_index(drop=True)
     table["pose_index"], table["rank"] = table["rank"], np.arange(len(table))
     table["hand_configuration"] = [

@@ -101,14 +101,23 @@ class TrueRoles:
         Args:
             points_m, normals: (n, 3); normals point out of the object.
         """
-        tree = cKDTree(np.hstack([self.points_m, NORMAL_M * self.normals]))
-        nearest = tree.query(np.hstack([points_m, NORMAL_M * normals]))[1]
+        nearest = nearest_facing(self.points_m, self.normals, points_m, normals)
         return [self.roles[int(index)] for index in nearest]
 
     def index_at(self, points_m: Array, normals: Array) -> NDArray[np.intp]:
         """The same roles (n,) as their places in roles.yaml."""
         order = list(read_roles().roles)
         return np.array([order.index(part.role) for part in self.at(points_m, normals)])
+
+
+def nearest_facing(
+    known_m: Array, known_normals: Array, points_m: Array, normals: Array
+) -> NDArray[np.intp]:
+    """Index (n,) of the nearest of known points (N, 3) that faces the same way as each point (n, 3)
+    near the object."""
+    tree = cKDTree(np.hstack([known_m, NORMAL_M * known_normals]))
+    nearest: NDArray[np.intp] = tree.query(np.hstack([points_m, NORMAL_M * normals]))[1]
+    return nearest
 
 
 def read_slices(path: str | Path) -> pd.DataFrame:

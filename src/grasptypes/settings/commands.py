@@ -111,7 +111,6 @@ class PartPlanSettings(Settings):
     """Study of planning with and without the parts that a shape shows."""
 
     sessions: int = setting("sessions per object, task and way", ge=1, le=1000)
-    trace: Share = setting("share of the contact that does not count as touching a part")
     covered: Share = setting("share of the contact on handles that leaves them free for others")
 
 
@@ -126,6 +125,7 @@ class PlanSettings(Settings):
         "by task, roles that a plan leaves free: the first list that leaves something to hold; its "
         "hands keep off hazards too"
     )
+    trace: Share = setting("share of the contact that does not count as touching a part")
     comparison: PlanComparisonSettings
     parts: PartPlanSettings
 

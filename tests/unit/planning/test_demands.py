@@ -8,7 +8,7 @@ from tests.unit.settings import PARAMS
 
 from grasptypes.contact_maps.contact_map import MapTask
 from grasptypes.contact_maps.placement import SurfacePoints
-from grasptypes.planning.demands import demanded_holds, demands, hold_as_demanded
+from grasptypes.planning.demands import demanded_holds, demands, given_up, hold_as_demanded
 from grasptypes.segmentation.parts import Parts
 from grasptypes.settings.roles import PartRole
 from grasptypes.settings.tasks import read_tasks
@@ -33,21 +33,25 @@ def test_only_a_task_with_a_receiver_demands_more_than_people_do():
 
 
 @pytest.mark.parametrize(
-    ("task", "head", "held"),
+    ("task", "head", "held", "touched", "avoided"),
     [
-        ("use", "head", {"handle", "head"}),
-        ("handoff", "head", {"head"}),
+        ("use", "head", {"handle", "head"}, [], ()),
+        ("use", "working_end", {"handle"}, [], ("head",)),
+        ("handoff", "head", {"head"}, [], ()),
         # Beside the handle there is nothing better.
-        ("handoff", "working_end", {"head"}),
+        ("handoff", "working_end", {"head"}, ["head"], ()),
         # Nothing is left to hold but the handle, or the blade.
-        ("handoff", "blade", {"handle"}),
+        ("handoff", "blade", {"handle"}, ["handle"], ("head",)),
     ],
 )
-def test_plans_hold_what_the_receiver_does_not_want(task, head, held):
+def test_plans_hold_what_the_receiver_does_not_want_or_say_so(task, head, held, touched, avoided):
     drawn, geometry, parts = seen(task, head)
     holds = demanded_holds(drawn, geometry, parts, PARAMS)[1]
     assert {part for hold in holds for part in hold.parts} == held
-    contacts = hold_as_demanded(drawn, geometry, parts, GRIPS, PARAMS).contact_map
+    plan = hold_as_demanded(drawn, geometry, parts, GRIPS, PARAMS)
+    assert given_up(task, plan.held_parts, parts, PARAMS) == touched
+    assert plan.avoided == avoided
+    contacts = plan.contact_map
     free = [name for name in parts.roles if name not in held]
     for name in free:
         on_part = contacts.part_index == list(parts.roles).index(name)

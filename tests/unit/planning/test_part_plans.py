@@ -19,7 +19,7 @@ from grasptypes.planning.part_plans import (
 from grasptypes.settings.roles import PartRole
 from grasptypes.settings.tasks import read_tasks
 
-SETTINGS = PARAMS.plan.parts
+SETTINGS = PARAMS.plan
 HANDLE, HEAD, BLADE = (PartRole.check({"role": role}) for role in ("handle", "head", "blade"))
 
 
@@ -47,7 +47,7 @@ def test_a_grasp_is_accepted_where_people_hold_for_the_task(task, touched, verdi
 def test_the_gain_is_that_of_each_set_of_scans():
     def row(name, parts, accepted):
         counts = {"sessions": 4, "tests": 8, "valid": 4, "held": 4, "clear": 4, "handle_free": 0}
-        counts |= {"safe": 4, "accepted": accepted}
+        counts |= {"offered": 4, "safe": 4, "accepted": accepted}
         return {"object": name, "task": "use", "parts": parts, **counts}
 
     rows = [row("mug", FOUND, 4), row("mug", ANYWHERE, 2)]

@@ -275,6 +275,7 @@ def test_wanted_types_come_first_and_failures_last():
         {
             "grasp_type": ["Precision", "Invalid", "Small Wrap", "Small Wrap"],
             "valid": [True, False, True, True],
+            "touches_avoided": False,
             "energy": [0.1, 0.0, 0.5, 0.4],
             "session": [1, 2, 3, 4],
             "rank": [0, 5, 1, 2],
@@ -286,6 +287,8 @@ def test_wanted_types_come_first_and_failures_last():
     assert order["rank"].tolist() == [0, 1, 2, 3]
     assert order.pose_index.tolist() == [2, 1, 0, 5]
     assert [numbers[0] for numbers in order.hand_configuration] == [0, 1, 2, 3]
+    on_a_blade = table.assign(touches_avoided=[False, False, False, True])
+    assert ranked(on_a_blade, ["Small Wrap"]).session.tolist() == [3, 1, 4, 2]
 
 
 def test_a_session_gives_its_grasp_of_a_wanted_type():
@@ -300,10 +303,12 @@ def test_a_session_gives_its_grasp_of_a_wanted_type():
         (3, "Small Wrap", True, False, 0.1),
         (3, "Small Wrap", True, True, 0.9),
     ]
-    attempts = pd.DataFrame(rows, columns=columns)
+    attempts = pd.DataFrame(rows, columns=columns).assign(touches_avoided=False)
     for types, expected in (["Small Wrap"], [2, 4, 7]), (["Power Sphere"], [3, 4, 7]):
         chosen = choose(attempts, types).chosen
         assert np.flatnonzero(chosen).tolist() == expected
+    attempts.loc[2, "touches_avoided"] = True
+    assert np.flatnonzero(choose(attempts, ["Small Wrap"]).chosen).tolist() == [1, 4, 7]
 
 
 def test_the_help_lists_all_types():
