@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 from repository import ROOT, Repository
 
-NAME = "a space; [b] (c) & umläut, it's\"quoted\" $HOME #1"
+NAME = 'a space; [b] (c) & umläut, it\'s"quoted" $HOME #1'
 TARGET = "data/contact_maps/mug/use.npz"
 
 
