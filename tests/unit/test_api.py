@@ -49,7 +49,7 @@ def test_the_import_loads_no_library():
 def test_the_code_of_a_page_runs(page, tmp_path):
     weights = small_checkout(tmp_path, SMALL_PLANS)
     (tmp_path / "assets").symlink_to(ROOT / "assets")
-    trimesh.creation.cylinder(30, 120, sections=48).export(tmp_path / "mug.stl")
+    trimesh.creation.cylinder(0.03, 0.12, sections=48).export(tmp_path / "mug.stl")
     environment = {WEIGHTS_VARIABLE: str(weights.path)}
     pin = "from grasptypes.runtime import pin_runtime; pin_runtime()\n"
     shown = snippet(page)

@@ -28,10 +28,11 @@ importlib.util.find_spec = find_spec  # torch asks whether others are installed
 """
 # Scripts of the main job and its reports that only read tables, by their first word.
 LIGHT = ("analyse", "compare", "plot", "summarise", "tabulate")
-# These read what `general` or a plan answers.
-GENERAL = {
+# Single jobs of studies beside the main job.
+STUDIES = {
     "analyse_general",
     "compare_plans",
+    "tabulate_demonstrations",
     "tabulate_general",
     "tabulate_generalisation",
     "tabulate_scan_plans",
@@ -64,7 +65,7 @@ def test_tables_and_figures_import_no_network_and_no_store() -> None:
     """They are many jobs, and each import would cost every one of them seconds."""
     folder = ROOT / "workflow" / "scripts"
     names = [path.stem for path in folder.glob("*.py") if path.stem.split("_")[0] in LIGHT]
-    names = sorted({*names, "label_grasps", "label_published", "split_folds"} - GENERAL)
+    names = sorted({*names, "label_grasps", "label_published", "split_folds"} - STUDIES)
     assert len(names) > 15
     result = without(["torch", "mlflow", "pybullet"], f"import {', '.join(names)}", folder)
     assert result.returncode == 0, result.stderr
