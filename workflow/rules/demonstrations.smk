@@ -4,11 +4,9 @@ from grasptypes.settings.demonstrations import DEMONSTRATIONS, read_demonstratio
 
 # Those that the table says how to use.
 DEMONSTRATED = [name for name in OBJECTS if name in read_demonstrations().uses]
-
-
-def demonstrators(labels):
-    """Objects with labels that can be shown at work."""
-    return [name for name in KNOWN[labels].objects if name in DEMONSTRATED]
+DEMONSTRATORS = {
+    labels: [name for name in KNOWN[labels].objects if name in DEMONSTRATED] for labels in LABELS
+}
 
 
 rule demonstrate_tasks:
@@ -68,11 +66,11 @@ use rule plot_renders as plot_demonstrations with:
 rule learn_from_demonstrations:
     input:
         inputs=lambda wildcards: expand(
-            rules.extract_features.output.features, object=demonstrators(wildcards.labels)
+            rules.extract_features.output.features, object=DEMONSTRATORS[wildcards.labels]
         ),
         demonstrations=lambda wildcards: expand(
             rules.describe_demonstrations.output.features,
-            object=demonstrators(wildcards.labels),
+            object=DEMONSTRATORS[wildcards.labels],
         ),
         samples=lambda wildcards: SAMPLES[wildcards.labels],
         folds=rules.split_folds.output.folds,
