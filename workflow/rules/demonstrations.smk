@@ -1,5 +1,5 @@
-# Model (f): the task is told by a second image, of another object at work. `snakemake demonstrations`
-# A separate target, since no other result needs it.
+# Model (f): the task is told by a second image, of another object at work. No other result needs it,
+# so it has a target of its own: `snakemake demonstrations`.
 from grasptypes.settings.demonstrations import DEMONSTRATIONS, read_demonstrations
 
 # Those that the table says how to use.
