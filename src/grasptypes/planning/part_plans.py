@@ -104,14 +104,16 @@ def study_plans(
         if name == FOUND:
             judged[FIRST] = grasps[~grasps.touches_avoided]
         for way, some in judged.items():
-            known = {
-                "object": context.geometry.name,
-                "task": context.task,
-                "parts": way,
-                "sessions": params.plan.parts.sessions,
-                "tests": tests(attempts),
-            }
-            rows.append(known | _judged(context, some, true, touch, task))
+            rows.append(
+                {
+                    "object": context.geometry.name,
+                    "task": context.task,
+                    "parts": way,
+                    "sessions": params.plan.parts.sessions,
+                    "tests": tests(attempts),
+                    **_judged(context, some, true, touch, task),
+                }
+            )
     return rows
 
 
