@@ -23,6 +23,7 @@ from grasptypes.planning.demands import given_up, given_up_line, hold_as_demande
 from grasptypes.planning.held_contacts import held_contacts
 from grasptypes.planning.plan_contacts import (
     MeasuredMap,
+    PlanContacts,
     grips_of,
     missing_types,
     plan_contacts,
@@ -44,6 +45,18 @@ class GraspTypeRequest(NamedTuple):
     types: tuple[str, ...]
     chosen_by: dict[str, Any] | None = None
     """The predictor and its answer; None if the user chose them."""
+
+
+class Guidance(NamedTuple):
+    """Where a plan holds an object, and what that is based on."""
+
+    contacts: PlanContacts
+    parts: Parts | None = None
+    """None with a measured map."""
+    given_up: Sequence[str] = ()
+    """Parts that the task wants untouched, and that hands may touch nevertheless."""
+    tells_where: bool = True
+    """False if every place is as good."""
 
 
 @dataclass(frozen=True)
@@ -163,17 +176,12 @@ class Planner:
         settings = self.params.contact_maps.changed(sessions=sessions or self.params.plan.sessions)
         name, seed_number = (MESH_WORD, task), self.params.seed
         drawn = MapTask.of_object(object, name, seed_number, settings)
-        grips, parts, contacts = grips_of(request.types), None, None
-        touched: list[str] = []
-        if contact_map is None:
-            parts = known_parts(object, drawn.points, self.params.segmentation, roles)
-            contacts = hold_as_demanded(drawn, object, parts, grips, self.params)
-            if contacts:
-                touched = given_up(task, contacts.held_parts, parts, self.params)
-        held = contacts is not None
-        contacts = contacts or plan_contacts(drawn, contact_map, grips, source)
-        if parts:
-            self._tell_parts(parts, task, held, touched)
+        grips = grips_of(request.types)
+        if contact_map:
+            guidance = Guidance(plan_contacts(drawn, contact_map, grips, source))
+        else:
+            guidance = self._hold_parts(drawn, object, grips, roles)
+        contacts = guidance.contacts
         if left_out := settings.sessions - len(contacts.numbers):
             self.tell(
                 f"skipped {left_out} of {settings.sessions} ways of holding: "
@@ -192,23 +200,34 @@ class Planner:
             hand=self.hand,
             params=self.params,
             contact_map=contact_map.path.name if contact_map else None,
-            parts=parts,
-            given_up=touched,
+            parts=guidance.parts,
+            given_up=guidance.given_up,
             points=drawn.points,
-            held_where=contacts.contact_map if held or contact_map else None,
+            held_where=contacts.contact_map if guidance.tells_where else None,
             attempts=attempts,
             ranking=ranking,
             contacts=touching,
         )
 
-    def _tell_parts(self, parts: Parts, task: str, held: bool, touched: Sequence[str]) -> None:
-        """Say what the parts are, whether people hold any of them for a task, and which hands may
-        touch although the task wants them untouched."""
+    def _hold_parts(
+        self,
+        drawn: MapTask,
+        object: ObjectGeometry,
+        grips: Sequence[str],
+        roles: RoleTable | None,
+    ) -> Guidance:
+        """Where people hold an object's parts for a task, or anywhere if they hold none of them."""
+        task = drawn.name[1]
+        parts = known_parts(object, drawn.points, self.params.segmentation, roles)
+        held = hold_as_demanded(drawn, object, parts, grips, self.params)
+        touched = given_up(task, held.held_parts, parts, self.params) if held else []
+        contacts = held or plan_contacts(drawn, None, grips, object.source or object.name)
         self.tell(f"parts by {parts.basis}: {described(parts)}")
         if not held:
             self.tell(f"people hold none of these for {task}: every place counts the same")
         if touched:
             self.tell(given_up_line(task, touched))
+        return Guidance(contacts, parts, touched, tells_where=held is not None)
 
     def check_request(
         self, task: str, types: Sequence[str], mass_kg: float | None, source: str = ""
