@@ -34,7 +34,7 @@ from grasptypes.predictors.general_predictor import GeneralNetwork
 from grasptypes.predictors.general_protocol import KINDS, OCCURS, WITH_SIZE
 from grasptypes.predictors.known_kinds import nearest
 from grasptypes.predictors.memory import Memory
-from grasptypes.predictors.photographs import PHOTOGRAPHS
+from grasptypes.predictors.photograph_folder import PHOTOGRAPHS
 from grasptypes.predictors.prediction import Predictor
 from grasptypes.predictors.shown import Shown
 from grasptypes.predictors.strangeness import Strangeness

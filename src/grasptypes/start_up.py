@@ -11,7 +11,7 @@ from grasptypes.labels.label_sources import check_published
 from grasptypes.objects.own_objects import check_every_hold, check_own_objects
 from grasptypes.objects.reference_meshes import reference_meshes
 from grasptypes.objects.variants import all_objects
-from grasptypes.predictors.photographs import photograph_files
+from grasptypes.predictors.photograph_folder import photograph_files
 from grasptypes.settings.holds import check_tasks, read_hold_table
 from grasptypes.settings.params import Params
 from grasptypes.settings.tasks import read_tasks

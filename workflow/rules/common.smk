@@ -13,7 +13,7 @@ from grasptypes.objects.mesh_companions import companions
 from grasptypes.objects.own_objects import measured_map
 from grasptypes.objects.reference_meshes import reference_meshes
 from grasptypes.objects.variants import all_objects, all_variants, base_of
-from grasptypes.predictors.photographs import photograph_files
+from grasptypes.predictors.photograph_folder import photograph_files
 from grasptypes.predictors.weights import DOWNLOAD_SHA256_START, WEIGHTS_VARIABLE, chosen_weights
 from grasptypes.segmentation import NETWORK
 from grasptypes.settings.roles import ROLES

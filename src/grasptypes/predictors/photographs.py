@@ -1,8 +1,8 @@
-"""Photographs of objects with names: an optional folder that the user names."""
+"""Photographs of objects with names."""
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Collection, Iterator
 from pathlib import Path
 
 import numpy as np
@@ -15,8 +15,6 @@ from grasptypes.renders.photos import read_photo
 from grasptypes.settings.commands import PhotoLimits
 from grasptypes.tables import read_table
 
-PHOTOGRAPHS = "GRASPTYPES_PHOTOGRAPHS"
-FILE = "photographs.csv"
 PIXEL = pa.Check.ge(0)
 PHOTOGRAPH_SCHEMA = pa.DataFrameSchema(
     {
@@ -30,31 +28,6 @@ PHOTOGRAPH_SCHEMA = pa.DataFrameSchema(
     strict=True,
     ordered=True,
 )
-
-
-def photograph_files(environment: Mapping[str, str], objects: Collection[str]) -> list[Path]:
-    """The table in the folder that the environment names, and the files that it lists.
-
-    Args:
-        objects: of the dataset.
-
-    Returns:
-        the table first; nothing if no folder is named.
-
-    Raises:
-        InputError: the folder has no such table, or it is wrong.
-    """
-    named = environment.get(PHOTOGRAPHS, "")
-    if not named:
-        return []
-    path = Path(named) / FILE
-    if not path.is_file():
-        raise InputError(PHOTOGRAPHS, "", f"names '{named}', which is not a folder with a {FILE}")
-    files = [path.parent / name for name in read_photographs(path, objects)["file"].unique()]
-    for file in files:
-        if not file.is_file():
-            raise InputError(path, "file", f"no such file: {file.name}")
-    return [path, *files]
 
 
 def read_photographs(path: str | Path, objects: Collection[str]) -> pd.DataFrame:

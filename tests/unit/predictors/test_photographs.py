@@ -6,13 +6,8 @@ from PIL import Image
 from tests.unit.settings import PARAMS
 
 from grasptypes.errors import InputError
-from grasptypes.predictors.photographs import (
-    FILE,
-    PHOTOGRAPHS,
-    photograph_files,
-    read_photographs,
-    shown_objects,
-)
+from grasptypes.predictors.photograph_folder import FILE, PHOTOGRAPHS, photograph_files
+from grasptypes.predictors.photographs import read_photographs, shown_objects
 
 LIMITS = PARAMS.predict.photos
 HEADER = "file,object,left,top,right,bottom\n"
