@@ -23,7 +23,7 @@ from scipy.special import expit
 from grasptypes.kinds.names import shape_of
 from grasptypes.labels.samples import LABELS, read_samples
 from grasptypes.predictors.explanation import blurred, explain, small
-from grasptypes.predictors.general_examples import family_folds
+from grasptypes.predictors.families import family_folds
 from grasptypes.predictors.general_files import (
     kind_families,
     read_known_kinds,

@@ -1,5 +1,6 @@
 """Extras: the core works without them, and a missing one is named in a line."""
 
+import re
 import subprocess
 import sys
 import tomllib
@@ -102,12 +103,30 @@ def test_a_command_names_the_extra_that_it_lacks(
     assert done.stderr.endswith(f"pip install 'grasptypes[{extra}]'\n")
 
 
-def test_prediction_needs_no_other_extra(tmp_path: Path) -> None:
+def test_prediction_from_a_photograph_needs_little_else(tmp_path: Path) -> None:
     Image.new("RGB", (64, 64), "red").save(tmp_path / "photo.png")
     others = sorted(set(OPTIONAL) - set(EXTRAS["predict"]))
+    # What takes long to import, and photographs need not.
+    others += ["torchvision", "matplotlib", "pandas", "trimesh"]
     words = ("predict", "photo.png", "--task", "use")
     done = without(others, command(*words), tmp_path)
     assert "general" in done.stdout, done.stderr
+
+
+def test_help_imports_no_library(tmp_path: Path) -> None:
+    done = without(["numpy", "pydantic", "yaml"], command("--help"), tmp_path)
+    assert done.returncode == 0, done.stderr
+
+
+def test_the_workflow_starts_without_the_libraries_of_its_jobs() -> None:
+    """Snakemake reads the rules at every start, however little is left to do."""
+    rules = [ROOT / "Snakefile", *(ROOT / "workflow" / "rules").glob("*.smk")]
+    text = "\n".join(path.read_text() for path in rules)
+    modules = sorted(set(re.findall(r"^from (grasptypes\S*) import", text, re.MULTILINE)))
+    assert len(modules) > 15
+    heavy = ["torch", "mlflow", "pybullet", "pandas", "scipy", "trimesh", "matplotlib"]
+    done = without(heavy, f"import {', '.join(modules)}", ROOT)
+    assert done.returncode == 0, done.stderr
 
 
 def test_the_library_names_the_extra_that_it_lacks(tmp_path: Path) -> None:

@@ -9,9 +9,7 @@ import argparse
 from pathlib import Path
 
 from grasptypes.commands.settings import add_folder, check_target, printable, read_task
-from grasptypes.files import json_text
 from grasptypes.objects.units import UNITS_M
-from grasptypes.settings.params import checkout_params
 
 SUMMARY = "Show what is known about a mesh: size, parts with roles, and where people hold it."
 
@@ -47,6 +45,9 @@ def run(args: argparse.Namespace) -> str:
     Raises:
         InputError: an argument is wrong, or the mesh cannot be used; nothing is written.
     """
+    from grasptypes.files import json_text
+    from grasptypes.settings.params import checkout_params
+
     params = checkout_params(args.folder)
     tasks = list(dict.fromkeys(read_task(text, params.tasks) for text in args.task)) or list(
         params.tasks

@@ -10,7 +10,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from grasptypes.commands.settings import add_folder, printable
-from grasptypes.files import json_text
 from grasptypes.objects.units import UNITS_M
 
 if TYPE_CHECKING:
@@ -43,6 +42,7 @@ def run(args: argparse.Namespace) -> str:
     Raises:
         InputError: table, mesh or hand cannot be read.
     """
+    from grasptypes.files import json_text
     from grasptypes.hands.reading import load_hand
     from grasptypes.labels.grasp_table import read_grasp_table
     from grasptypes.labels.grasp_type import explain, measure, thresholds_of

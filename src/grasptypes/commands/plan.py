@@ -11,9 +11,7 @@ from pathlib import Path
 from grasptypes.commands.messages import say
 from grasptypes.commands.settings import add_folder, check_place, printable, read_task
 from grasptypes.errors import InputError
-from grasptypes.files import json_text
 from grasptypes.objects.units import UNITS_M
-from grasptypes.settings.params import checkout_params
 
 SUMMARY = "Plan grasps of a mesh for a task: searched, tested in physics, labelled and ranked."
 # `GRASP_TYPES` without the last, for a fast help text; a test keeps both consistent.
@@ -60,10 +58,13 @@ def run(args: argparse.Namespace) -> str:
     Raises:
         InputError: an argument is wrong; nothing is written.
     """
+    from grasptypes.settings.params import checkout_params
+
     task = read_task(args.task, checkout_params(args.folder).tasks)
     output = args.output or Path(f"{args.object.stem}_{task}_grasps")
     _check_output(output)
 
+    from grasptypes.files import json_text
     from grasptypes.objects.loading import load_object
     from grasptypes.planning.plan_contacts import MeasuredMap
     from grasptypes.planning.plan_summary import report, summarise

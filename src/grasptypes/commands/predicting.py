@@ -197,7 +197,7 @@ def _explain(
     shown: Shown, predictor: Predictor, task: str, facts: dict[str, Any], target: Path
 ) -> None:
     from grasptypes.labels.label_pictures import save_figure
-    from grasptypes.predictors.explanation import draw_explanation
+    from grasptypes.predictors.prediction_pictures import draw_explanation
 
     picture, heat = predictor.explain(shown, task, **facts)
     title = f"what spoke for each type, for {task}"

@@ -12,8 +12,6 @@ from typing import TYPE_CHECKING
 
 from grasptypes.commands.messages import say
 from grasptypes.errors import InputError
-from grasptypes.files import staging_name
-from grasptypes.settings.task_words import find_task
 
 if TYPE_CHECKING:  # other commands need no server
     from http.server import HTTPServer
@@ -68,6 +66,8 @@ def read_task(text: str, known: Collection[str]) -> str:
     Raises:
         InputError: the text names no known task, or several equally.
     """
+    from grasptypes.settings.task_words import find_task
+
     task = find_task(text, known)
     if task != text:
         say(f"task: {task}")
@@ -93,6 +93,8 @@ def check_place(path: Path) -> None:
     Raises:
         InputError: the nearest existing parent folder is not writable, or a name is too long.
     """
+    from grasptypes.files import staging_name
+
     above = Path()
     try:
         above = next(parent for parent in path.parents if parent.exists())

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from grasptypes.errors import InputError
 from grasptypes.objects.bodies import BODY
+from grasptypes.objects.file_formats import MESHES
 from grasptypes.objects.glb_file import read_glb
 from grasptypes.objects.mesh_limits import check_faces, check_file_size
 from grasptypes.objects.obj_file import read_obj
@@ -19,8 +20,6 @@ from grasptypes.objects.polygons import PolygonMesh
 from grasptypes.objects.stl_file import read_stl
 from grasptypes.objects.surface_colours import FaceColours, plain
 from grasptypes.settings.objects import ImportLimits
-
-FORMATS = (".stl", ".obj", ".ply", ".glb")
 
 
 class MeshFile(NamedTuple):
@@ -45,8 +44,8 @@ def read_meshes(path: Path, limits: ImportLimits, remarks: list[str]) -> MeshFil
         InputError: the file is no mesh, is damaged, or exceeds the limits.
     """
     suffix = path.suffix.lower()
-    if suffix not in FORMATS:
-        raise InputError(path, "", f"is not a supported mesh format ({', '.join(FORMATS)})")
+    if suffix not in MESHES:
+        raise InputError(path, "", f"is not a supported mesh format ({', '.join(MESHES)})")
     if not path.is_file():
         raise InputError(path, "", "no such file")
     check_file_size(path, limits)

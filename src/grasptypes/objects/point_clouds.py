@@ -11,11 +11,11 @@ import trimesh
 from scipy.spatial import cKDTree
 
 from grasptypes.errors import InputError, parsing
+from grasptypes.objects.file_formats import POINTS
 from grasptypes.objects.ply_file import ply_points, read_ply
 from grasptypes.objects.units import UNITS_M
 from grasptypes.settings.commands import CloudSettings
 
-FORMATS = (".ply", ".npy", ".pcd")
 PCD_READER = "pypcd4"
 
 
@@ -27,7 +27,7 @@ def is_cloud(path: Path) -> bool:
     """
     suffix = path.suffix.lower()
     if suffix != ".ply":
-        return suffix in FORMATS
+        return suffix in POINTS
     if not path.is_file():
         return False
     found = read_ply(path)

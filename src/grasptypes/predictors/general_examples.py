@@ -10,11 +10,9 @@ import pandas as pd
 
 from grasptypes.errors import InputError
 from grasptypes.labels.samples import COUNTS, LABELS
+from grasptypes.predictors.families import Families
 from grasptypes.predictors.general_inputs import FACTS, Inputs, Pictures, Targets, TaskCode
-from grasptypes.seeds import rng
 from grasptypes.settings.tasks import Task
-
-Families = Mapping[str, frozenset[str]]
 
 
 @dataclass(frozen=True)
@@ -90,21 +88,3 @@ def frequencies(samples: pd.DataFrame) -> np.ndarray:
     """Shares (N, types) of the types among the valid grasps of each sample."""
     counts = samples[list(COUNTS)].to_numpy(dtype=float)
     return np.asarray(counts / counts.sum(axis=1, keepdims=True))
-
-
-def family_folds(families: Families, count: int, seed: int) -> list[frozenset[str]]:
-    """Families in `count` groups of about as many objects, each to be held out in turn.
-
-    Args:
-        families: of each object; the first in the alphabet decides where an object with several is.
-        seed: of the workflow.
-    """
-    names = pd.Series([min(own) for own in families.values()]).value_counts()
-    shuffled = sorted(names.index, key=lambda name: rng("family", name, seed).random())
-    folds: list[set[str]] = [set() for _ in range(min(count, len(names)))]
-    sizes = np.zeros(len(folds), dtype=int)
-    for name in sorted(shuffled, key=lambda name: -names[name]):
-        smallest = int(np.argmin(sizes))
-        folds[smallest].add(name)
-        sizes[smallest] += names[name]
-    return [frozenset(fold) for fold in folds]

@@ -14,8 +14,9 @@ from grasptypes.files import read_npz, write_npz
 from grasptypes.kinds.library import read_kind
 from grasptypes.kinds.names import shape_of
 from grasptypes.labels.samples import read_samples
+from grasptypes.objects.object_files import Properties, read_properties
 from grasptypes.predictors.general_examples import Known
-from grasptypes.predictors.general_inputs import SIZE, Pictures, object_facts
+from grasptypes.predictors.general_inputs import FACTS, SIZE, Pictures
 from grasptypes.settings.tasks import read_tasks
 
 
@@ -82,12 +83,29 @@ def read_known_objects(
     )
 
 
+def object_facts(paths: Iterable[str | Path]) -> pd.DataFrame:
+    """Size and mass of prepared objects: a row per object, the columns of :data:`FACTS`.
+
+    Args:
+        paths: files of properties.
+    """
+    known = [read_properties(path) for path in paths]
+    rows = {one.object: _facts_of(one) for one in known}
+    return pd.DataFrame.from_dict(rows, orient="index", columns=list(FACTS))
+
+
+def _facts_of(known: Properties) -> list[float]:
+    """The logarithms of the three extents, largest first (m), and of the mass (kg)."""
+    low, high = np.array(known.bounds_m)
+    return [*np.log(np.sort(high - low)[::-1]), float(np.log(known.mass_kg))]
+
+
 def scan_facts(scans: Mapping[str, tuple[str, float]], facts: pd.DataFrame) -> pd.DataFrame:
     """Sizes of scans as measured on their meshes, and masses as of our models.
 
     Args:
         scans: files of meshes in metres, and the scale of our models, by the name of the object.
-        facts: of our models, see `general_inputs.object_facts`.
+        facts: of our models, see :func:`object_facts`.
     """
     found = facts.loc[list(scans)].copy()
     for name, (path, scale) in scans.items():

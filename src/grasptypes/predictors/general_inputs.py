@@ -4,13 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from pathlib import Path
 from typing import get_args
 
 import numpy as np
-import pandas as pd
 
-from grasptypes.objects.object_files import Properties, read_properties
 from grasptypes.settings.roles import read_roles
 from grasptypes.settings.tasks import Grip, Task
 
@@ -50,23 +47,6 @@ def joined(parts: Sequence[Pictures]) -> Pictures:
         np.concatenate([part.features for part in parts]),
         np.concatenate([part.classes for part in parts]),
     )
-
-
-def object_facts(paths: Iterable[str | Path]) -> pd.DataFrame:
-    """Size and mass of prepared objects: a row per object, the columns of :data:`FACTS`.
-
-    Args:
-        paths: files of properties.
-    """
-    known = [read_properties(path) for path in paths]
-    rows = {one.object: facts_of(one) for one in known}
-    return pd.DataFrame.from_dict(rows, orient="index", columns=list(FACTS))
-
-
-def facts_of(known: Properties) -> list[float]:
-    """The logarithms of the three extents, largest first (m), and of the mass (kg)."""
-    low, high = np.array(known.bounds_m)
-    return [*np.log(np.sort(high - low)[::-1]), float(np.log(known.mass_kg))]
 
 
 def spread_of(size: float, mass: float) -> np.ndarray:

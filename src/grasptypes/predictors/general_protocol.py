@@ -10,8 +10,9 @@ import pandas as pd
 import pandera.pandas as pa
 
 from grasptypes.labels.samples import LABELS, TYPES
+from grasptypes.predictors.families import family_folds
 from grasptypes.predictors.general import GeneralHead, fit_head
-from grasptypes.predictors.general_examples import Known, asked, family_folds, frequencies
+from grasptypes.predictors.general_examples import Known, asked, frequencies
 from grasptypes.predictors.general_inputs import FACTS, Pictures, TaskCode
 from grasptypes.seeds import rng
 from grasptypes.settings.general import HeadSettings

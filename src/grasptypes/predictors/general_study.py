@@ -7,9 +7,10 @@ from dataclasses import dataclass
 
 import pandas as pd
 
+from grasptypes.predictors.families import Families
 from grasptypes.predictors.general import GeneralHead
 from grasptypes.predictors.general_baseline import Asked, task_vector_answers
-from grasptypes.predictors.general_examples import Families, Known
+from grasptypes.predictors.general_examples import Known
 from grasptypes.predictors.general_inputs import Pictures, TaskCode, joined
 from grasptypes.predictors.general_protocol import (
     GEOMETRY,

@@ -4,14 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
-from importlib import import_module
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from grasptypes.errors import InputError
-from grasptypes.objects.object_geometry import ObjectGeometry
 from grasptypes.predictors.answers import Answer, Card, described, spelled
 from grasptypes.predictors.batches import in_batches
 from grasptypes.predictors.explanation import explain, small
@@ -29,6 +27,9 @@ from grasptypes.predictors.weights import find_weights
 from grasptypes.renders.depth_images import Intrinsics
 from grasptypes.renders.photos import Box
 from grasptypes.settings.params import PARAMS, Params, checkout_params
+
+if TYPE_CHECKING:
+    from grasptypes.objects.object_geometry import ObjectGeometry
 
 # Label sources of trained models; their folders below models/.
 LABELS = ("simulated", "published")
@@ -112,7 +113,6 @@ class Predictor:
         Raises:
             InputError: the model is not trained, or was trained with other weights.
         """
-        import_module("torchvision")  # before OpenGL: see `renders.renderer`
         params = params or checkout_params(folder)
         chosen = labels or params.predict.labels, model or params.predict.model
         return cls(load_model(folder or ".", *chosen), params)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -78,3 +78,25 @@ def _draw_bars(axes: Axes, answer: Answer) -> None:
     axes.set_xticks(np.linspace(0, 1, 6))
     axes.tick_params(labelsize="small")
     axes.spines[["top", "right"]].set_visible(False)
+
+
+def draw_explanation(picture: np.ndarray, heat: Mapping[str, np.ndarray], title: str) -> Figure:
+    """The image, and over it what spoke for (red) and against (blue) each type.
+
+    Args:
+        heat: (S, S) of :func:`explain` by the name of each type.
+    """
+    figure = Figure(figsize=(2.2 * (len(heat) + 1), 2.7), layout="constrained")
+    panels = figure.subplots(1, len(heat) + 1)
+    most = max(float(np.abs(list(heat.values())).max()), 1e-9)
+    panels[0].set_title("image", fontsize="small")
+    for panel in panels:
+        panel.imshow(picture)
+        panel.set_axis_off()
+    for panel, (name, layer) in zip(panels[1:], heat.items(), strict=True):
+        shade = panel.imshow(layer, cmap="RdBu_r", vmin=-most, vmax=most, alpha=0.55)
+        panel.set_title(name, fontsize="small")
+    bar = figure.colorbar(shade, ax=list(panels), shrink=0.8)
+    bar.set_label("fall of the logit when hidden", fontsize="small")
+    figure.suptitle(title, fontsize="small", parse_math=False)
+    return figure

@@ -2,30 +2,25 @@
 
 from __future__ import annotations
 
-import threading
-from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
-from dataclasses import dataclass, replace
-from importlib import import_module
+from collections.abc import Sequence
+from dataclasses import dataclass
 from pathlib import Path
-from tempfile import TemporaryDirectory
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from grasptypes.errors import InputError
-from grasptypes.objects import point_clouds
-from grasptypes.objects.loading import own_object
-from grasptypes.objects.mesh_files import FORMATS
-from grasptypes.objects.object_geometry import ObjectGeometry
+from grasptypes.objects.file_formats import MESHES, POINTS
 from grasptypes.renders import depth_images as depths
 from grasptypes.renders.foreground import doubts
 from grasptypes.renders.image_parts import box_of, check_box, check_mask, cut, read_mask, reduced
-from grasptypes.renders.mesh_views import mesh_views, views
 from grasptypes.renders.photos import Box, is_turned, padded, read_whole
 from grasptypes.settings.params import Params
 
+if TYPE_CHECKING:
+    from grasptypes.objects.object_geometry import ObjectGeometry
+
 Photo = str | Path | np.ndarray
-_DRAWING = threading.Lock()
 
 
 @dataclass(frozen=True)
@@ -70,18 +65,10 @@ class Hints:
         return next((f"--{name}" for name in options if getattr(self, name) is not None), "")
 
 
-@contextmanager
-def drawing() -> Iterator[None]:
-    """One thread draws at a time, and torch is loaded before OpenGL: see `renders.renderer`."""
-    import_module("torchvision")
-    with _DRAWING:
-        yield
-
-
 def is_photo(what: object) -> bool:
     """Whether something is taken for images: arrays, and files that are no meshes or points."""
     if isinstance(what, str | Path):
-        return Path(what).suffix.lower() not in {*FORMATS, *point_clouds.FORMATS}
+        return Path(what).suffix.lower() not in {*MESHES, *POINTS}
     return isinstance(what, np.ndarray)
 
 
@@ -98,20 +85,17 @@ def look(what: ObjectGeometry | Photo | Sequence[Photo], hints: Hints, params: P
     """
     if isinstance(what, Sequence) and not isinstance(what, str):
         return together([look(one, hints, params) for one in what])
-    if isinstance(what, ObjectGeometry):
-        size_m = np.sort(np.ptp(what.properties.bounds_m, axis=0))[::-1]
-        with drawing():
-            seen = views(what.visual, params.renders, params.predict.views)
-        return Shown(tuple(seen), tuple(size_m.tolist()))
-    if is_photo(what):
+    if isinstance(what, np.ndarray) or (isinstance(what, str | Path) and is_photo(what)):
         return _photo(what, hints, params)
-    path = Path(what)  # type: ignore[arg-type]
+    # Photographs need nothing of what is imported here, and are answered sooner without it.
+    from grasptypes.predictors.shown_shapes import look_at_file, look_at_object
+
+    if not isinstance(what, str | Path):
+        return look_at_object(what, params)
     if hints.of_image:
-        raise InputError(hints.of_image, "", f"is for images; {path.name} is a mesh or points")
-    unit = hints.unit or "m"
-    if point_clouds.is_cloud(path):
-        return _cloud(path, unit, params)
-    return _mesh(path, unit, params)
+        message = f"is for images; {Path(what).name} is a mesh or points"
+        raise InputError(hints.of_image, "", message)
+    return look_at_file(Path(what), hints.unit or "m", params)
 
 
 def together(parts: Sequence[Shown]) -> Shown:
@@ -124,30 +108,6 @@ def together(parts: Sequence[Shown]) -> Shown:
         sizes[0] if sizes else (),
         tuple(dict.fromkeys(text for part in parts for text in part.warnings)),
     )
-
-
-def _mesh(path: Path, unit: str, params: Params) -> Shown:
-    with drawing():
-        seen, size_m = mesh_views(own_object(path, unit), params)
-    return Shown(tuple(seen), tuple(sorted(size_m, reverse=True)))
-
-
-def _cloud(path: Path, unit: str, params: Params) -> Shown:
-    """Points are drawn as the surface of balls around them; their own extents are the size."""
-    points = point_clouds.read_cloud(path, unit, params.predict.clouds)
-    size_m = point_clouds.extents(points)
-    low, high = params.predict.size_m
-    if not low <= size_m[0] <= high:
-        message = (
-            f"the points extend over {size_m[0]:.4g} m; must be {low:g} to {high:g} m (--unit)"
-        )
-        raise InputError(path, "", message)
-    with TemporaryDirectory() as folder:
-        surface = Path(folder) / "points.stl"
-        point_clouds.wrapped(points, params.predict.clouds).export(surface)
-        shown = _mesh(surface, "m", params)
-    text = "the points are drawn as a surface around them; what they do not cover is not seen"
-    return replace(shown, size_m=size_m, warnings=(text,))
 
 
 def _photo(what: Photo, hints: Hints, params: Params) -> Shown:

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from grasptypes.predictors.general_examples import Families, family_folds
+from grasptypes.predictors.families import Families, family_folds
 from grasptypes.predictors.general_inputs import Pictures, Projection
 from grasptypes.settings.general import StrangenessSettings
 

@@ -12,7 +12,6 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-import trimesh
 
 from grasptypes.errors import InputError, parsing
 from grasptypes.renders.photos import Box, opened_image
@@ -164,6 +163,8 @@ def longest_extent(
     Raises:
         InputError: the region has too many holes, or is too near or far.
     """
+    import trimesh  # takes half a second, and photographs without depth need none of it
+
     seen = region & np.isfinite(depth)
     holes = 1 - seen.sum() / max(region.sum(), 1)
     if holes > limits.max_holes:

@@ -10,7 +10,8 @@ import pandas as pd
 import pandera.pandas as pa
 from matplotlib.figure import Figure
 
-from grasptypes.predictors.general_examples import Known, family_folds
+from grasptypes.predictors.families import family_folds
+from grasptypes.predictors.general_examples import Known
 from grasptypes.predictors.general_inputs import Pictures, spread_of
 from grasptypes.predictors.general_protocol import (
     CONSTANT,

@@ -8,7 +8,7 @@ from collections.abc import Mapping
 
 import pandas as pd
 
-from grasptypes.predictors.general_examples import Families, family_folds
+from grasptypes.predictors.families import Families, family_folds
 from grasptypes.predictors.general_predictor import GENERAL
 from grasptypes.predictors.general_protocol import KINDS, SIMULATED, WITH_SIZE
 from grasptypes.predictors.metrics import METRICS

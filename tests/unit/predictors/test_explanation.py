@@ -3,7 +3,8 @@
 import numpy as np
 from tests.unit.settings import PARAMS
 
-from grasptypes.predictors.explanation import draw_explanation, explain, small
+from grasptypes.predictors.explanation import explain, small
+from grasptypes.predictors.prediction_pictures import draw_explanation
 
 SETTINGS = PARAMS.predict.explanation
 

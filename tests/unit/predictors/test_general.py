@@ -9,8 +9,9 @@ from tests.unit.settings import PARAMS
 
 from grasptypes.errors import InputError
 from grasptypes.labels.samples import COUNTS, samples_from_counts
+from grasptypes.predictors.families import family_folds
 from grasptypes.predictors.general import fit_head, probabilities
-from grasptypes.predictors.general_examples import Known, family_folds
+from grasptypes.predictors.general_examples import Known
 from grasptypes.predictors.general_inputs import FACTS, Pictures, TaskCode
 from grasptypes.predictors.general_protocol import (
     ANSWER_SCHEMA,
