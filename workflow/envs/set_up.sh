@@ -50,8 +50,14 @@ if ! can_load libOSMesa.so.8 && ! can_load libOSMesa.so.6 && ! can_load libEGL.s
 fi
 
 [ -x "$venv/bin/python" ] || "$python" -m venv "$venv"
-# On a terminal, one changing line says how far pip is; otherwise only its errors are shown.
+# With uv, or else with pip, which takes minutes and may know an index that uv does not. On a terminal
+# both say how far they are; otherwise only errors are shown.
 install_locked() {
+    if command -v uv >/dev/null; then
+        local quiet=--quiet
+        [ ! -t 1 ] || quiet=""
+        uv pip install $quiet --python "$venv/bin/python" -r requirements.lock && return
+    fi
     if [ ! -t 1 ]; then
         "$venv/bin/pip" install -qq --disable-pip-version-check -r requirements.lock
         return
