@@ -119,8 +119,7 @@ def visual_glb(imported: ImportedModel, crease_deg: float) -> bytes:
 
     A part whose surface has several materials has one mesh for each.
     """
-    parts, solid, colours = _coloured(imported)
-    solid = solid.calculate_normals(0, crease_deg)
+    parts, solid, colours = _coloured(imported, crease_deg)
     mesh = solid.to_mesh64()
     vertices, normals = np.split(np.asarray(mesh.vert_properties)[:, :6], 2, axis=1)
     faces = np.asarray(mesh.tri_verts)
@@ -152,14 +151,18 @@ def _beside(mesh: trimesh.Trimesh) -> NDArray[np.float64]:
     return np.asarray(0.95 * mesh.vertices + 0.05 * points)
 
 
-def _coloured(imported: ImportedModel) -> tuple[list[Part], Manifold, SurfaceColours | None]:
-    """The parts, their union and its colours; its faces are small where colours may vary."""
+def _coloured(
+    imported: ImportedModel, crease_deg: float
+) -> tuple[list[Part], Manifold, SurfaceColours | None]:
+    """The parts, their union with normals, and its colours; its faces are small where these vary."""
     model, scale = imported.model, imported.scale
     parts = scaled_parts(model, scale)
+    solid = joined(parts).calculate_normals(0, crease_deg)
     if model.colours is None:
-        return parts, joined(parts), None
+        return parts, solid, None
     colours = model.colours.scaled(scale)
-    return parts, joined(parts).refine_to_length(colours.spacing_m), colours
+    # Normals come first: for many small faces they take minutes.
+    return parts, solid.refine_to_length(colours.spacing_m), colours
 
 
 def _pbr(name: str, material: Material) -> trimesh.visual.material.PBRMaterial:
