@@ -56,7 +56,7 @@ install_locked() {
     if command -v uv >/dev/null; then
         local quiet=--quiet
         [ ! -t 1 ] || quiet=""
-        uv pip install $quiet --python "$venv/bin/python" -r requirements.lock && return
+        uv pip install $quiet --compile-bytecode --python "$venv/bin/python" -r requirements.lock && return
     fi
     if [ ! -t 1 ]; then
         "$venv/bin/pip" install -qq --disable-pip-version-check -r requirements.lock
