@@ -19,7 +19,7 @@ export DVC_NO_ANALYTICS := 1
 export MLFLOW_DISABLE_TELEMETRY := true
 
 .PHONY: help setup table1 demo test test-slurm test-workflow bad-input verify coverage mutation bench lint format \
-    publish ui report results docs release clean lock slurm
+    publish ui report results docs release clean lock
 
 help: ## list the targets
 	@awk -F ':.*## ' '/^[a-z0-9-]+:.*## / {printf "  make %-12s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -74,10 +74,7 @@ lowest: setup ## test the library with the lowest versions that its ranges allow
 test-workflow: setup ## all that docs/versions.md and docs/reliability.md say, on 2 objects; about half an hour
 	pytest tests/workflow -m "slow or not slow"
 
-slurm: setup ## what profiles/slurm needs besides: Snakemake's plugin for Slurm
-	pip install -q --disable-pip-version-check --no-build-isolation -c requirements.lock -e '.[slurm]'
-
-test-slurm: slurm ## the small configuration on a Slurm cluster of this machine (slurm-wlm and munge)
+test-slurm: setup ## the small configuration on a Slurm cluster of this machine (slurm-wlm and munge)
 	pytest tests/slurm
 
 bad-input: setup ## try every mistake a user can make and write docs/bad_input.md
@@ -135,7 +132,7 @@ clean: ## remove what can be rebuilt outside the data: logs, demo, caches
 	rm -rf build logs mutants .coverage* .pytest_cache .ruff_cache .mypy_cache
 
 lock: setup ## write requirements.lock anew from the ranges of pyproject.toml
-	pip-compile --quiet --extra workflow --extra dev --extra kubernetes --strip-extras --no-header --annotation-style line \
+	pip-compile --quiet --extra workflow --extra dev --extra cluster --strip-extras --no-header --annotation-style line \
 	    --no-emit-index-url --no-emit-find-links --no-emit-trusted-host -o build/all.lock pyproject.toml
 	{ echo "# Written by make lock. The CUDA libraries are left out: torch itself pins the ones its build needs,"; \
 	  echo "# and its CPU build needs none."; \

@@ -9,7 +9,7 @@ from packaging.requirements import Requirement
 from packaging.version import Version
 
 ROOT = Path(__file__).parents[2]
-UNLOCKED = ("docs", "onnx", "points", "slurm")
+UNLOCKED = ("docs", "onnx", "points")
 
 
 def locked() -> dict[str, Version]:
@@ -30,7 +30,7 @@ def stated(*extras: str) -> list[Requirement]:
 
 
 def extras() -> list[str]:
-    """All but the tools of the site and of Slurm, and those of two file formats."""
+    """All but the tools of the site, which `make docs` installs, and those of two file formats."""
     project = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
     return [name for name in project["optional-dependencies"] if name not in UNLOCKED]
 
