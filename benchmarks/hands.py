@@ -99,9 +99,9 @@ def count_grasps(folders: Mapping[str, Path]) -> pd.DataFrame:
     for hand, folder in folders.items():
         for path in sorted(folder.glob("*/*.parquet")):
             table = read_table(path, GRASP_SCHEMA)
-            row = {"hand": hand, "object": path.parent.name, "task": path.stem}
-            row |= {"grasps": len(table), "valid": int(table.valid.sum())}
-            rows.append(row | {reason: int((table.reason == reason).sum()) for reason in REASONS})
+            reasons = {reason: int((table.reason == reason).sum()) for reason in REASONS}
+            number = {"grasps": len(table), "valid": int(table.valid.sum()), **reasons}
+            rows.append({"hand": hand, "object": path.parent.name, "task": path.stem, **number})
     return pd.DataFrame(rows, columns=list(GRASP_COUNTS.columns))
 
 
