@@ -95,14 +95,19 @@ def grasp_folders(hand: str) -> dict[str, Path]:
 
 def count_grasps(folders: Mapping[str, Path]) -> pd.DataFrame:
     """Table of `GRASP_COUNTS`: what became of the sessions of each object and task."""
-    rows = []
-    for hand, folder in folders.items():
-        for path in sorted(folder.glob("*/*.parquet")):
-            table = read_table(path, GRASP_SCHEMA)
-            reasons = {reason: int((table.reason == reason).sum()) for reason in REASONS}
-            number = {"grasps": len(table), "valid": int(table.valid.sum()), **reasons}
-            rows.append({"hand": hand, "object": path.parent.name, "task": path.stem, **number})
+    rows = [
+        {"hand": hand, "object": path.parent.name, "task": path.stem}
+        | outcomes(read_table(path, GRASP_SCHEMA))
+        for hand, folder in folders.items()
+        for path in sorted(folder.glob("*/*.parquet"))
+    ]
     return pd.DataFrame(rows, columns=list(GRASP_COUNTS.columns))
+
+
+def outcomes(grasps: pd.DataFrame) -> dict[str, int]:
+    """Numbers of grasps: all, the valid ones, and those that fail for each reason."""
+    reasons = {reason: int((grasps.reason == reason).sum()) for reason in REASONS}
+    return {"grasps": len(grasps), "valid": int(grasps.valid.sum()), **reasons}
 
 
 class Marks(NamedTuple):
