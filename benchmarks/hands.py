@@ -1,9 +1,9 @@
-"""All hands beside each other: reports/hands.csv and reports/hand_models.csv.
+"""All hands beside each other: reports/hands.csv, hand_tables.csv and hand_models.csv.
 
 ``python -m benchmarks.hands`` counts the grasps of this checkout and of those that `make hand` made
-in hands/, compares the forward kinematics of every hand that comes with the package with what
-physics engines make of its hand.urdf, and measures the time that it takes to find grasps with it,
-beside the hand of params.yaml. ``python -m benchmarks.hands grasps`` only counts.
+in hands/, joins their Tables I, compares the forward kinematics of every hand that comes with the
+package with those of physics engines, and measures the time that it takes to find grasps with it,
+beside the hand of params.yaml. ``python -m benchmarks.hands grasps`` only counts and joins.
 """
 
 from __future__ import annotations
@@ -15,28 +15,23 @@ from contextlib import ExitStack
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
-import mujoco
 import numpy as np
 import pandas as pd
 import pandera.pandas as pa
-import pybullet
 from benchmarks.figures import seconds
+from benchmarks.hand_kinematics import kinematics_errors
 from numpy.typing import NDArray
-from trimesh.transformations import euler_matrix
 
 from grasptypes.contact_maps.contact_map_files import read_contact_map
-from grasptypes.hands.description import HandDescription
-from grasptypes.hands.folders import DESCRIPTION, URDF, hand_names
+from grasptypes.hands.folders import hand_names
 from grasptypes.hands.hand import Hand
 from grasptypes.hands.reading import load_hand
 from grasptypes.objects.object_geometry import read_object
 from grasptypes.physics.engines import engine
 from grasptypes.physics.holding import HoldResult, hold_in_all
 from grasptypes.physics.loads import task_load
-from grasptypes.poses import inverse
-from grasptypes.seeds import rng
 from grasptypes.settings.params import Params, read_params
 from grasptypes.settings.tasks import read_tasks
 from grasptypes.synthesis.grasps import GRASP_SCHEMA, REASONS
@@ -50,7 +45,8 @@ from grasptypes.yaml_files import read_yaml
 Array = NDArray[np.float64]
 
 SETTINGS = Path(__file__).with_name("settings.yaml")
-GRASPS, MODELS = Path("reports/hands.csv"), Path("reports/hand_models.csv")
+GRASPS, TABLES = Path("reports/hands.csv"), Path("reports/hand_tables.csv")
+MODELS = Path("reports/hand_models.csv")
 
 GRASP_COUNTS = pa.DataFrameSchema(
     {
@@ -64,6 +60,17 @@ GRASP_COUNTS = pa.DataFrameSchema(
     strict=True,
     ordered=True,
     unique=["hand", "object", "task"],
+)
+MEASURES = ("sim_mean", "sim_sd", "acc_mean", "acc_sd", "prec_mean", "prec_sd", "freq_mean")
+TABLE_SCHEMA = pa.DataFrameSchema(
+    {
+        "hand": pa.Column(str),
+        "model": pa.Column(str),
+        **{measure: pa.Column(float, nullable=True) for measure in MEASURES},
+    },
+    strict=True,
+    ordered=True,
+    unique=["hand", "model"],
 )
 MODEL_SCHEMA = pa.DataFrameSchema(
     {
@@ -85,12 +92,10 @@ MODEL_SCHEMA = pa.DataFrameSchema(
 )
 
 
-def grasp_folders(hand: str) -> dict[str, Path]:
-    """Folders of grasps by hand: of this checkout, whose hand is given, and below hands/."""
-    found = {hand: Path("data/grasps")}
-    for folder in sorted(Path("hands").glob("*/data/grasps")):
-        found[folder.parts[1]] = folder
-    return found
+def checkouts(hand: str) -> dict[str, Path]:
+    """Folders by hand: this checkout, whose hand is given, and those below hands/."""
+    others = sorted(path.parent for path in Path("hands").glob("*/data"))
+    return {hand: Path()} | {folder.name: folder for folder in others}
 
 
 def count_grasps(folders: Mapping[str, Path]) -> pd.DataFrame:
@@ -99,114 +104,26 @@ def count_grasps(folders: Mapping[str, Path]) -> pd.DataFrame:
         {"hand": hand, "object": path.parent.name, "task": path.stem}
         | outcomes(read_table(path, GRASP_SCHEMA))
         for hand, folder in folders.items()
-        for path in sorted(folder.glob("*/*.parquet"))
+        for path in sorted(folder.glob("data/grasps/*/*.parquet"))
     ]
     return pd.DataFrame(rows, columns=list(GRASP_COUNTS.columns))
+
+
+def join_tables(folders: Mapping[str, Path]) -> pd.DataFrame:
+    """Table of `TABLE_SCHEMA`: Table I of each hand that has one, on simulated labels."""
+    tables = [
+        pd.read_csv(folder / "reports/table1.csv").assign(hand=hand)
+        for hand, folder in folders.items()
+        if (folder / "reports/table1.csv").exists()
+    ]
+    columns = list(TABLE_SCHEMA.columns)
+    return pd.concat(tables)[columns] if tables else pd.DataFrame(columns=columns)
 
 
 def outcomes(grasps: pd.DataFrame) -> dict[str, int]:
     """Numbers of grasps: all, the valid ones, and those that fail for each reason."""
     reasons = {reason: int((grasps.reason == reason).sum()) for reason in REASONS}
     return {"grasps": len(grasps), "valid": int(grasps.valid.sum()), **reasons}
-
-
-class Marks(NamedTuple):
-    """Points of a hand that its own URDF names: origins of links, and ends of fingers."""
-
-    links: tuple[str, ...]
-    tips_m: Array
-    """(F, 3) in the frames of `tip_links` of the URDF."""
-    tip_links: tuple[int, ...]
-    """Indices in `links`."""
-    T_palm_hand: Array
-
-    def of(self, T_palm_link: Array) -> Array:
-        """(n, L + F, 3) in the hand's frame, of link poses (n, L, 4, 4)."""
-        T = inverse(self.T_palm_hand) @ T_palm_link
-        tips = T[:, list(self.tip_links)]
-        ends = np.einsum("nfij,fj->nfi", tips[..., :3, :3], self.tips_m) + tips[..., :3, 3]
-        return np.concatenate([T[..., :3, 3], ends], axis=1)
-
-
-def kinematics_errors(hand: Hand, number: int) -> tuple[float, float]:
-    """Largest distance in metres of a joint or fingertip from where PyBullet and MuJoCo have it.
-
-    The engines load the hand's own hand.urdf, not the one written for physics tests.
-
-    Args:
-        number: of random joint vectors within the limits.
-    """
-    path = Path(hand.folder) / DESCRIPTION
-    described = HandDescription.check(read_yaml(path), path)
-    palm, fingers = described.palm, described.fingers
-    T_palm_hand = np.asarray(euler_matrix(*palm.rpy_rad, "sxyz"))
-    T_palm_hand[:3, 3] = palm.xyz_m
-    tips = np.array([fingers[finger.name].tip_m for finger in hand.fingers])
-    links = tuple(link - 1 for link in hand.tip_links)
-    marks = Marks(hand.link_names[1:], tips, links, T_palm_hand)
-    low, high = hand.joint_limits.T
-    draw = rng("benchmark", "kinematics", path.parent.name)
-    positions = draw.uniform(low, high, (number, len(hand.joints)))
-    origins = hand.link_poses(positions)[:, 1:, :3, 3]
-    own = np.concatenate([origins, hand.fingertips(positions)], axis=1)
-    urdf = Path(hand.folder) / URDF
-    bullet, other = (
-        float(np.linalg.norm(marks.of(poses(urdf, hand, positions)) - own, axis=-1).max())
-        for poses in (_bullet_poses, _mujoco_poses)
-    )
-    return bullet, other
-
-
-def _bullet_poses(urdf: Path, hand: Hand, positions: Array) -> Array:
-    """T_palm_link (n, L - 1, 4, 4) of the URDF's links."""
-    client = pybullet.connect(pybullet.DIRECT)
-    try:
-        body = pybullet.loadURDF(str(urdf), useFixedBase=True, physicsClientId=client)
-        count = pybullet.getNumJoints(body, physicsClientId=client)
-        infos = [pybullet.getJointInfo(body, j, physicsClientId=client) for j in range(count)]
-        joints = {info[1].decode(): info[0] for info in infos}
-        links = {info[12].decode(): info[0] for info in infos}
-        found = np.empty((len(positions), len(hand.link_names), 4, 4))
-        for row, sample in enumerate(positions):
-            for name, position in zip(hand.joint_names, sample.tolist(), strict=True):
-                pybullet.resetJointState(body, joints[name], position, physicsClientId=client)
-            for column, name in enumerate(hand.link_names):
-                found[row, column] = _bullet_pose(client, body, links.get(name))
-    finally:
-        pybullet.disconnect(client)
-    return inverse(found[:, :1]) @ found[:, 1:]
-
-
-def _bullet_pose(client: int, body: int, link: int | None) -> Array:
-    """T_root_link; the root, which has no number, is the origin."""
-    T = np.eye(4)
-    if link is not None:
-        state = pybullet.getLinkState(
-            body, link, computeForwardKinematics=True, physicsClientId=client
-        )
-        T[:3, :3] = np.reshape(pybullet.getMatrixFromQuaternion(state[5]), (3, 3))
-        T[:3, 3] = state[4]
-    return T
-
-
-def _mujoco_poses(urdf: Path, hand: Hand, positions: Array) -> Array:
-    """T_palm_link (n, L - 1, 4, 4) of the URDF's links."""
-    spec = mujoco.MjSpec.from_file(str(urdf))
-    spec.compiler.fusestatic = False
-    for shape in (*spec.geoms, *spec.meshes):
-        spec.delete(shape)
-    model = spec.compile()
-    data = mujoco.MjData(model)
-    places = [model.joint(name).qposadr[0] for name in hand.joint_names]
-    bodies = [model.body(name).id for name in hand.link_names]
-    found = np.zeros((len(positions), len(bodies), 4, 4))
-    found[..., 3, 3] = 1.0
-    for T, sample in zip(found, positions, strict=True):
-        data.qpos[places] = sample
-        mujoco.mj_kinematics(model, data)
-        T[:, :3, :3] = data.xmat[bodies].reshape(-1, 3, 3)
-        T[:, :3, 3] = data.xpos[bodies]
-    return inverse(found[:, :1]) @ found[:, 1:]
 
 
 class Timed:
@@ -279,8 +196,10 @@ def model_rows(settings: Mapping[str, Any], params: Params) -> Iterator[dict[str
 def main() -> None:
     """Command line."""
     params = read_params("params.yaml")
-    counts = count_grasps(grasp_folders(params.hand))
+    folders = checkouts(params.hand)
+    counts, tables = count_grasps(folders), join_tables(folders)
     write_table(counts, GRASPS, GRASP_COUNTS)
+    write_table(tables, TABLES, TABLE_SCHEMA)
     total = counts.drop(columns=["object", "task"]).groupby("hand").sum()
     sys.stdout.write(f"{total.assign(share=total.valid / total.grasps).to_string()}\n")
     if sys.argv[1:] != ["grasps"]:

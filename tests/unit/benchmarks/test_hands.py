@@ -5,7 +5,8 @@ from pathlib import Path
 
 import pandas as pd
 import pytest
-from benchmarks.hands import grasp_folders, kinematics_errors, outcomes
+from benchmarks.hand_kinematics import kinematics_errors
+from benchmarks.hands import MEASURES, checkouts, join_tables, outcomes
 
 from grasptypes.hands.folders import hand_names
 from grasptypes.hands.reading import load_hand
@@ -27,13 +28,18 @@ def test_a_palm_that_is_elsewhere_is_noticed(tmp_path: Path) -> None:
     assert kinematics_errors(hand, number=3) == pytest.approx((0.0002, 0.0002), rel=1e-3)
 
 
-def test_grasps_of_other_hands_are_those_that_make_hand_made(tmp_path: Path, monkeypatch) -> None:
-    (tmp_path / "hands/own/data/grasps").mkdir(parents=True)
+def test_other_hands_are_those_that_make_hand_computed(tmp_path: Path, monkeypatch) -> None:
+    (tmp_path / "hands/own/data").mkdir(parents=True)
+    (tmp_path / "hands/own/reports").mkdir()
+    (tmp_path / "hands/half_made").mkdir()
+    row = pd.DataFrame([{"model": "no_task", "sim_mean": 0.5}])
+    row = row.reindex(columns=["model", *MEASURES])
+    row.to_csv(tmp_path / "hands/own/reports/table1.csv", index=False)
     monkeypatch.chdir(tmp_path)
-    assert grasp_folders("usual") == {
-        "usual": Path("data/grasps"),
-        "own": Path("hands/own/data/grasps"),
-    }
+    folders = checkouts("usual")
+    assert folders == {"usual": Path(), "own": Path("hands/own")}
+    joined = join_tables(folders)
+    assert joined[["hand", "model", "sim_mean"]].to_numpy().tolist() == [["own", "no_task", 0.5]]
 
 
 def test_grasps_are_counted_by_why_they_fail() -> None:
