@@ -189,8 +189,9 @@ def model_rows(settings: Mapping[str, Any], params: Params) -> Iterator[dict[str
     for name, hand in hands.items():
         bullet_m, mujoco_m = kinematics_errors(hand, settings["joint_vectors"])
         row: dict[str, object] = {"hand": name, "fingers": len(hand.fingers)}
-        row |= {"joints": len(hand.joints), "pybullet_mm": 1e3 * bullet_m}
-        yield row | {"mujoco_mm": 1e3 * mujoco_m, **times[name]}
+        row |= {"joints": len(hand.joints), "pybullet_mm": float(f"{1e3 * bullet_m:.4g}")}
+        measured = {"mujoco_mm": 1e3 * mujoco_m, **times[name]}
+        yield row | {key: float(f"{value:.4g}") for key, value in measured.items()}
 
 
 def main() -> None:
