@@ -109,6 +109,25 @@ def test_the_table_of_demonstrations_is_that_of_the_results() -> None:
             assert cell == f"{row.sim_mean:.3f} ± {row.sim_sd:.3f}"
 
 
+def test_the_table_of_hands_is_that_of_the_results() -> None:
+    page = (ROOT / "docs/own_hand.md").read_text()
+    counts = pd.read_csv(RESULTS / "hands.csv").groupby("hand").sum(numeric_only=True)
+    models = pd.read_csv(RESULTS / "hand_models.csv").set_index("hand")
+    rows = re.findall(r"^\| `(\w+)` " + r"\| ([^|]*) " * 6 + r"\|$", page, re.M)
+    assert {name for name, *_ in rows} == set(models.index)
+    for name, valid, *failed, distance, ratio in rows:
+        assert distance == f"{1e6 * models.pybullet_mm[name]:.0f} nm"
+        assert ratio == f"{models.ratio[name]:.2f}"
+        if name in counts.index:
+            row = counts.loc[name]
+            assert valid == f"{row.valid} of {row.grasps} ({100 * row.valid / row.grasps:.0f} %)"
+            assert failed == [str(row[key]) for key in ("penetrates", "dropped", "joint_limit")]
+    tables = pd.read_csv(RESULTS / "hand_tables.csv").set_index(["hand", "model"])
+    for model in ("no_task", "task_vector", "task_in_image"):
+        row = tables.loc["robotiq_3f", model]
+        assert f"{row.sim_mean:.3f} / {row.acc_mean:.3f} / {row.prec_mean:.3f}" in page
+
+
 def test_results_are_quoted_and_the_others_are_not_in_git() -> None:
     quoted = "".join(page.read_text() for page in PAGES)
     assert [path.name for path in RESULTS.iterdir() if path.stem not in quoted] == []

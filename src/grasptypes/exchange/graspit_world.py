@@ -1,6 +1,6 @@
 """GraspIt! world files: one object and one of the robots that GraspIt! knows, in XML.
 
-The format (GraspIt!'s manual, "Worlds", and its worlds/barrettGlassDyn.xml): lengths are
+The format (GraspIt!'s manual, "Worlds", and the examples in its folder worlds): lengths are
 millimetres; a pose is `(w x y z)[x y z]` in the world. The `dofValues` of a hand with breakaway
 fingers are its preshapes, then for each finger its angle, 1 if its clutch has released, and the
 angle at which it released. From there on, the finger's angle drives only the fingertip.

@@ -117,8 +117,8 @@ def read_published(path: str | Path) -> pd.DataFrame:
         One row per grasp in the order of the file, with the columns index, object, task, session,
         grasp_type, grasp_type_index, rank, energy, pose_index, hand_configuration and image.
         A hand_configuration is an array (17,), see `hands.configuration`, or None if the cell
-        is blank. Its DOFs are spread, F1, F2, F3 of GraspIt!'s `Barrett`, and may exceed
-        the real hand's limits.
+        is blank. Its DOFs are those of GraspIt!'s model of the hand, and may exceed the real
+        hand's limits.
 
     Raises:
         InputError: names the file, and the first bad line and column.
