@@ -59,6 +59,7 @@ include: "workflow/rules/tables.smk"
 include: "workflow/rules/details.smk"
 include: "workflow/rules/generalisation.smk"
 include: "workflow/rules/demonstrations.smk"
+include: "workflow/rules/many_tasks.smk"
 include: "workflow/rules/planning.smk"
 include: "workflow/rules/tracking.smk"
 include: "workflow/rules/kinds_common.smk"
@@ -92,6 +93,7 @@ localrules:
     tabulate_objects,
     tabulate_generalisation,
     tabulate_demonstrations,
+    label_many_grasps,
     tabulate_robustness,
     tabulate_scan_plans,
     summarise_scores,

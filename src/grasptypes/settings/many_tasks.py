@@ -1,0 +1,32 @@
+"""Section `many_tasks`: how models are told one of more tasks than two."""
+
+from __future__ import annotations
+
+from typing import Annotated, Self
+
+from pydantic import AfterValidator, Field, model_validator
+
+from grasptypes.settings.base import MisplacedError, Name, Settings, Unique, setting
+from grasptypes.settings.tasks import TASKS, read_tasks
+
+
+def _is_a_task(name: str) -> str:
+    if name not in read_tasks():
+        raise ValueError(f"'{name}' is not described in {TASKS.name}: {', '.join(read_tasks())}")
+    return name
+
+
+class ManyTaskSettings(Settings):
+    """Numbers of tasks, and how models are told them."""
+
+    tasks: Unique[Annotated[Name, AfterValidator(_is_a_task)]] = setting(
+        "tasks of tasks.yaml; fewer are the first of them", min_length=3
+    )
+    numbers: Unique[Annotated[int, Field(ge=2)]] = setting("numbers of tasks", min_length=1)
+    least_grasps: int = setting("pairs with fewer valid grasps are left out", ge=1, le=100)
+
+    @model_validator(mode="after")
+    def _has_as_many_tasks(self) -> Self:
+        if max(self.numbers) > len(self.tasks):
+            raise MisplacedError("numbers", f"there are only {len(self.tasks)} tasks")
+        return self
