@@ -93,7 +93,9 @@ localrules:
     tabulate_objects,
     tabulate_generalisation,
     tabulate_demonstrations,
+    tabulate_grasps_alone,
     label_many_grasps,
+    tabulate_many_tasks,
     tabulate_robustness,
     tabulate_scan_plans,
     summarise_scores,
@@ -101,6 +103,7 @@ localrules:
     tabulate_general,
     publish_general,
     publish_demonstrations,
+    publish_many_tasks,
     plot_folds,
     plot_losses,
 

@@ -20,9 +20,11 @@ class ManyTaskSettings(Settings):
     """Numbers of tasks, and how models are told them."""
 
     tasks: Unique[Annotated[Name, AfterValidator(_is_a_task)]] = setting(
-        "tasks of tasks.yaml; fewer are the first of them", min_length=3
+        "tasks of tasks.yaml, of which the first are compared", min_length=3, max_length=8
     )
     numbers: Unique[Annotated[int, Field(ge=2)]] = setting("numbers of tasks", min_length=1)
+    views: int = setting("images of each object", ge=5, le=1000)
+    embedding: int = setting("numbers that stand for a task in FiLM", ge=1, le=256)
     least_grasps: int = setting("pairs with fewer valid grasps are left out", ge=1, le=100)
 
     @model_validator(mode="after")
