@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -92,7 +93,7 @@ def summarize(trials: pd.DataFrame, samples: pd.DataFrame, tasks: Sequence[str])
             part = shown[shown["task"] == task]
             rows += [of_task | row | {"n_pairs": len(own)} for row in _runs(part, mean_of_pairs)]
             for row in _references(others, own):
-                found[str(row["model"])].append(float(row["sim_mean"]))
+                found[row["model"]].append(row["sim_mean"])
                 rows.append(of_task | row)
         head |= {"evaluated": EVERYTHING, "n_pairs": len(known)}
         rows += [head | row for row in _runs(shown, _of_tasks)]
@@ -118,10 +119,10 @@ def _of_tasks(trials: pd.DataFrame) -> pd.DataFrame:
 
 def _runs(
     trials: pd.DataFrame, measured: Callable[[pd.DataFrame], pd.DataFrame]
-) -> list[dict[str, object]]:
+) -> list[dict[str, Any]]:
     """Rows of all models, with their change against the model that is not told the task."""
     of_model = {name: measured(part) for name, part in trials.groupby("model", sort=False)}
-    rows: list[dict[str, object]] = []
+    rows: list[dict[str, Any]] = []
     for name, runs in of_model.items():
         similarity = runs["angular_similarity"]
         row = {"model": name, "sim_se": similarity.sem(), "n_runs": len(runs)}
@@ -133,7 +134,7 @@ def _runs(
     return rows
 
 
-def _references(known: pd.DataFrame, tested: pd.DataFrame) -> list[dict[str, object]]:
+def _references(known: pd.DataFrame, tested: pd.DataFrame) -> list[dict[str, Any]]:
     """Rows of the answers from labels: the mean direction of all labels, or of an object's.
 
     An object without another task gets the answer to all pairs.

@@ -86,7 +86,8 @@ class ManyTasks:
     def _features(self, name: str, encoding: str, views: np.ndarray) -> np.ndarray:
         if encoding not in self.inputs.get(name, {}):
             raise InputError(f"data/many_tasks/features/{name}.npz", encoding, "is missing")
-        return self.inputs[name][encoding][views]
+        features: np.ndarray = self.inputs[name][encoding][views]
+        return features
 
     def with_known_tasks(self, model: str, number: int) -> pd.DataFrame:
         """Test on held-out images: a row for each fold, seed and task."""

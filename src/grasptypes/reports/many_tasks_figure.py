@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 
 from grasptypes.predictors.many_task_tables import COMMON, EVERYTHING, REFERENCES
 from grasptypes.predictors.told import MODELS
-from grasptypes.reports.figures import CEILING, CONSTANT, OURS, PAPER
+from grasptypes.reports.figures import CEILING, CONSTANT, OURS, PAPER, add_legend
 
 COLOURS = {
     "no_task": "black",
@@ -42,12 +42,7 @@ def draw_many_tasks(table: pd.DataFrame) -> Figure:
         axes.set_title(title, fontsize="medium")
     panels[0].set_ylabel("angular similarity")
     _left_out(panels[2], table[table["split"] == "tasks"])
-    names, handles = {}, []
-    for axes in panels:
-        for handle, name in zip(*axes.get_legend_handles_labels(), strict=True):
-            names.setdefault(name, handle)
-    handles = list(names.values())
-    figure.legend(handles, list(names), loc="outside lower center", ncols=5, frameon=False)
+    add_legend(figure, loc="outside lower center", ncols=5)
     return figure
 
 
@@ -56,8 +51,16 @@ def _lines(axes: Axes, rows: pd.DataFrame) -> None:
     for place, name in enumerate(MODELS):
         own = rows[rows["model"] == name].sort_values("tasks")
         beside = own["tasks"] * (1 + APART * (place - len(MODELS) // 2))
-        style = {"color": COLOURS[name], "label": MODELS[name], "markersize": 4}
-        axes.errorbar(beside, own["sim_mean"], own["sim_se"], marker="o", capsize=2, **style)
+        axes.errorbar(
+            beside,
+            own["sim_mean"],
+            own["sim_se"],
+            marker="o",
+            markersize=4,
+            color=COLOURS[name],
+            label=MODELS[name],
+            capsize=2,
+        )
     for name, meaning in REFERENCES.items():
         own = rows[rows["model"] == name].sort_values("tasks")
         axes.plot(own["tasks"], own["sim_mean"], ":", color=COLOURS[name], label=meaning)
