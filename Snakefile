@@ -60,6 +60,7 @@ include: "workflow/rules/details.smk"
 include: "workflow/rules/generalisation.smk"
 include: "workflow/rules/demonstrations.smk"
 include: "workflow/rules/many_tasks.smk"
+include: "workflow/rules/learning_curve.smk"
 include: "workflow/rules/planning.smk"
 include: "workflow/rules/tracking.smk"
 include: "workflow/rules/kinds_common.smk"
@@ -96,6 +97,7 @@ localrules:
     tabulate_grasps_alone,
     label_many_grasps,
     tabulate_many_tasks,
+    plot_learning_curve,
     tabulate_robustness,
     tabulate_scan_plans,
     summarise_scores,
@@ -163,6 +165,7 @@ rule all:
 EXTRAS = [rules.evaluate_labels, rules.replay_grasps, rules.compare_shapes]
 EXTRAS += [rules.tabulate_generalisation, rules.compare_plans, rules.tabulate_robustness]
 EXTRAS += [rules.film_grasps, rules.plot_demonstrations, rules.tabulate_demonstrations]
+EXTRAS += [rules.tabulate_many_tasks, rules.plot_learning_curve]
 
 
 rule shown:

@@ -184,7 +184,10 @@ use rule tabulate_demonstrations as tabulate_grasps_alone with:
 
 rule publish_demonstrations:
     input:
-        trials=[*rules.tabulate_demonstrations.input.trials, *rules.tabulate_grasps_alone.input.trials],
+        trials=[
+            *rules.tabulate_demonstrations.input.trials,
+            *rules.tabulate_grasps_alone.input.trials,
+        ],
         features=expand(rules.describe_demonstrations.output.features, object=DEMONSTRATED),
     output:
         runs="reports/demonstration_runs.json",

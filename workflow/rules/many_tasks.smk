@@ -67,9 +67,7 @@ use rule synthesize_grasps as synthesize_further_grasps with:
 use rule label_grasps as label_many_grasps with:
     input:
         grasps=many_grasps,
-        grids=expand(
-            rules.prepare_object.output.distance_grid, object=config["objects"]["names"]
-        ),
+        grids=expand(rules.prepare_object.output.distance_grid, object=config["objects"]["names"]),
     output:
         grasps="data/many_tasks/grasps.csv",
         samples="data/many_tasks/samples.csv",

@@ -1,8 +1,8 @@
-"""Section `many_tasks`: how models are told one of more tasks than two."""
+"""Sections `many_tasks` and `learning_curve`: more tasks than two, and fewer images."""
 
 from __future__ import annotations
 
-from typing import Annotated, Self
+from typing import Annotated, Literal, Self
 
 from pydantic import AfterValidator, Field, model_validator
 
@@ -32,3 +32,14 @@ class ManyTaskSettings(Settings):
         if max(self.numbers) > len(self.tasks):
             raise MisplacedError("numbers", f"there are only {len(self.tasks)} tasks")
         return self
+
+
+class LearningCurveSettings(Settings):
+    """Models that learn from fewer images."""
+
+    views: Unique[Annotated[int, Field(ge=1)]] = setting(
+        "training images of each object", min_length=2
+    )
+    models: Unique[
+        Literal["no_task", "task_vector", "task_in_image", "ignores_task", "e_mobilenet_v2"]
+    ] = setting("models of Table I", min_length=1)
