@@ -51,7 +51,8 @@ def first_views(index: pd.DataFrame, rows: np.ndarray, views: int) -> np.ndarray
         views: images of each object; objects with fewer keep all of them.
     """
     place = index.iloc[rows].groupby("object")["view"].rank(method="dense")
-    return rows[(place <= views).to_numpy()]
+    kept: np.ndarray = rows[(place <= views).to_numpy()]
+    return kept
 
 
 def try_views(
