@@ -19,8 +19,9 @@ from grasptypes.settings.tasks import TASKS, read_tasks
 # unseen tasks they are the best for the other tasks, otherwise for those that they are tested on.
 REFERENCES = {"constant": "best constant answer", "object_known": "best answer to each object"}
 SPLITS = ("views", "tasks")
-# What is averaged over: all pairs, or those of the tasks that every number of tasks includes.
-EVERYTHING, COMMON = "all", "common"
+# What is averaged over: all pairs, those of the tasks that every number of tasks includes, or those
+# of objects whose labels are not the same for all of their tasks.
+EVERYTHING, COMMON, DIFFERING = "all", "common", "differing"
 
 _SHARE = pa.Check.in_range(0, 1)
 TRIAL_SCHEMA = pa.DataFrameSchema(
@@ -30,13 +31,14 @@ TRIAL_SCHEMA = pa.DataFrameSchema(
         "tasks": pa.Column(int, pa.Check.ge(2)),
         "group": pa.Column(str, description="fold, or the task that was not learnt from"),
         "seed": pa.Column(int, pa.Check.ge(0)),
+        "object": pa.Column(str),
         "task": pa.Column(str, pa.Check.isin(list(read_tasks(TASKS)))),
         "n_test": pa.Column(int, pa.Check.ge(1)),
         **{name: pa.Column(float, _SHARE) for name in METRICS},
     },
     strict=True,
     coerce=True,
-    unique=["model", "split", "tasks", "group", "seed", "task"],
+    unique=["model", "split", "tasks", "group", "seed", "object", "task"],
 )
 _MEANS = [f"{short}_mean" for short in SHORT.values()]
 TABLE_SCHEMA = pa.DataFrameSchema(
@@ -44,7 +46,7 @@ TABLE_SCHEMA = pa.DataFrameSchema(
         "split": pa.Column(str, pa.Check.isin(SPLITS)),
         "model": pa.Column(str, pa.Check.isin([*MODELS, *REFERENCES])),
         "tasks": pa.Column(int, pa.Check.ge(2)),
-        "evaluated": pa.Column(str, description="all pairs, those of the common tasks, or a task"),
+        "evaluated": pa.Column(str, description="which pairs, or a task"),
         "sim_mean": pa.Column(float, _SHARE),
         "sim_se": pa.Column(float, pa.Check.ge(0), nullable=True),
         "gain": pa.Column(float, nullable=True, description="similarity less that of no_task"),
@@ -74,13 +76,17 @@ def summarize(trials: pd.DataFrame, samples: pd.DataFrame, tasks: Sequence[str])
     rows = []
     for number in numbers:
         chosen = trials[(trials["tasks"] == number) & (trials["split"] == "views")]
-        for evaluated, counted in ((EVERYTHING, list(tasks[:number])), (COMMON, common)):
-            pairs = samples[samples["task"].isin(counted)]
-            known = samples[samples["task"].isin(tasks[:number])]
+        known = samples[samples["task"].isin(tasks[:number])]
+        kept: dict[str, tuple[str, list[str]]] = {
+            EVERYTHING: ("task", list(tasks[:number])),
+            COMMON: ("task", common),
+            DIFFERING: ("object", differing(known)),
+        }
+        for evaluated, (column, values) in kept.items():
+            pairs, part = (each[each[column].isin(values)] for each in (known, chosen))
             head = {"split": "views", "tasks": number, "evaluated": evaluated}
-            part = chosen[chosen["task"].isin(counted)]
             rows += [head | row | {"n_pairs": len(pairs)} for row in _runs(part, mean_of_pairs)]
-            rows += [head | row for row in _references(known, pairs)]
+            rows += [head | row for row in _references(known, pairs) if len(pairs)]
     unseen = trials[trials["split"] == "tasks"]
     for number in sorted(set(unseen["tasks"])):
         head = {"split": "tasks", "tasks": number}
@@ -114,7 +120,7 @@ def mean_of_pairs(trials: pd.DataFrame) -> pd.DataFrame:
 
 def _of_tasks(trials: pd.DataFrame) -> pd.DataFrame:
     """The measures of each task: the mean over its seeds."""
-    return trials.groupby("group")[list(METRICS)].mean()
+    return mean_of_pairs(trials).groupby(level="group").mean()
 
 
 def _runs(
@@ -164,6 +170,13 @@ def _units(samples: pd.DataFrame) -> pd.DataFrame:
     return labels.div(np.sqrt((labels**2).sum(axis=1)), axis=0).reset_index(drop=True)
 
 
+def differing(samples: pd.DataFrame) -> list[str]:
+    """The objects whose labels are not the same for all of their tasks."""
+    labels = samples[list(COUNTS)] > 0
+    different = labels.groupby(samples["object"]).nunique().max(axis=1) > 1
+    return list(different.index[different])
+
+
 def label_similarity(samples: pd.DataFrame) -> float:
     """The mean similarity of an object's labels for two of its tasks; 1 if tasks do not matter."""
     values = []
@@ -180,10 +193,17 @@ def markdown(table: pd.DataFrame) -> str:
     known = table[table["split"] == "views"]
     numbers = sorted(set(known["tasks"]))
     heads = [f"{number} tasks" for number in numbers]
-    first = _grid(known, EVERYTHING, [*names], numbers)
-    second = _grid(known, COMMON, [*names], numbers)
-    lines = [["told by", *heads, *(f"{head}, tested on the first" for head in heads)]]
-    lines += [[names[name], *first[name], *second[name]] for name in names if name in first]
+    parts = {
+        "all pairs of objects and tasks": EVERYTHING,
+        f"the pairs of the first {numbers[0]} tasks": COMMON,
+        "the pairs of objects whose labels differ between tasks": DIFFERING,
+    }
+    texts = []
+    for meaning, evaluated in parts.items():
+        grid = _grid(known, evaluated, [*names], numbers)
+        lines = [[f"told by, tested on {meaning}", *heads]]
+        lines += [[names[name], *cells] for name, cells in grid.items()]
+        texts.append(_rows(lines))
     unseen = table[table["split"] == "tasks"].set_index(["model", "evaluated"])
     columns = list(dict.fromkeys(evaluated for _, evaluated in unseen.index))
     columns = [EVERYTHING, *(name for name in columns if name != EVERYTHING)]
@@ -194,7 +214,8 @@ def markdown(table: pd.DataFrame) -> str:
         "± in the tables: standard error over folds and seeds; of tasks left out, over tasks or, "
         "for one task, over seeds.\n"
     )
-    return f"{_rows(lines)}\n\nTasks left out of training:\n\n{_rows(other)}\n\n{notes}"
+    shown = "\n\n".join(texts)
+    return f"{shown}\n\nTasks left out of training:\n\n{_rows(other)}\n\n{notes}"
 
 
 def _grid(

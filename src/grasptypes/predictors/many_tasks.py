@@ -90,7 +90,7 @@ class ManyTasks:
         return features
 
     def with_known_tasks(self, model: str, number: int) -> pd.DataFrame:
-        """Test on held-out images: a row for each fold, seed and task."""
+        """Test on held-out images: a row for each fold, seed, object and task."""
         examples = self.examples(model, number)
         members = members_by_group(examples.index["fold"], self.training.seeds)
         return self._tried(model, examples, members).assign(split="views", tasks=number)
@@ -110,7 +110,7 @@ class ManyTasks:
         return self._tried(model, examples, members).assign(split="tasks", tasks=number)
 
     def _tried(self, model: str, examples: Examples, members: Sequence[Member]) -> pd.DataFrame:
-        """A row for each member and task of its test."""
+        """A row for each member, and object and task of its test."""
         key = ("many tasks", model, self.seed)
         learnt, tested = examples, examples
         if model == "demonstration":
@@ -124,9 +124,9 @@ class ManyTasks:
         for member, outputs in zip(members, logits, strict=True):
             rows = member.test
             found = measures(outputs, tested.labels[rows], tested.frequencies[rows])
-            table = pd.DataFrame(found).assign(task=examples.index["task"].to_numpy()[rows])
-            means = table.groupby("task")[list(METRICS)].mean()
-            means["n_test"] = table.groupby("task").size()
+            pairs = examples.index.iloc[rows][["object", "task"]].reset_index(drop=True)
+            groups = pd.concat([pairs, pd.DataFrame(found)], axis=1).groupby(["object", "task"])
+            means = groups[list(METRICS)].mean().assign(n_test=groups.size())
             tables.append(means.reset_index().assign(group=member.group, seed=member.seed))
         return pd.concat(tables, ignore_index=True).assign(model=model)
 

@@ -6,7 +6,7 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from grasptypes.predictors.many_task_tables import COMMON, EVERYTHING, REFERENCES
+from grasptypes.predictors.many_task_tables import DIFFERING, EVERYTHING, REFERENCES
 from grasptypes.predictors.told import MODELS
 from grasptypes.reports.figures import CEILING, CONSTANT, OURS, PAPER, add_legend
 
@@ -26,7 +26,7 @@ APART = 0.015
 
 
 def draw_many_tasks(table: pd.DataFrame) -> Figure:
-    """All pairs, the pairs of the tasks that all numbers include, and tasks left out.
+    """All pairs, those of objects whose labels differ between tasks, and tasks left out.
 
     Args:
         table: of `many_task_tables.TABLE_SCHEMA`.
@@ -36,7 +36,7 @@ def draw_many_tasks(table: pd.DataFrame) -> Figure:
     known = table[table["split"] == "views"]
     for axes, evaluated, title in (
         (panels[0], EVERYTHING, "all pairs of objects and tasks"),
-        (panels[1], COMMON, "the pairs of the first tasks"),
+        (panels[1], DIFFERING, "objects whose labels differ"),
     ):
         _lines(axes, known[known["evaluated"] == evaluated])
         axes.set_title(title, fontsize="medium")
