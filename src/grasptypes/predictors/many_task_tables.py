@@ -103,9 +103,9 @@ def summarize(trials: pd.DataFrame, samples: pd.DataFrame, tasks: Sequence[str])
                 rows.append(of_task | row)
         head |= {"evaluated": EVERYTHING, "n_pairs": len(known)}
         rows += [head | row for row in _runs(shown, _of_tasks)]
-        for name, values in found.items():
-            error = float(pd.Series(values).sem())
-            mean = {"sim_mean": float(np.mean(values)), "sim_se": error}
+        for name, known_values in found.items():
+            error = float(pd.Series(known_values).sem())
+            mean = {"sim_mean": float(np.mean(known_values)), "sim_se": error}
             rows.append(head | {"model": name, **mean, "n_runs": 0})
     table = pd.DataFrame(rows, columns=list(TABLE_SCHEMA.columns))
     return table.round(6)
