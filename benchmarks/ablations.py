@@ -18,7 +18,7 @@ from __future__ import annotations
 import argparse
 import logging
 import sys
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, Literal
@@ -264,17 +264,22 @@ def main() -> None:
     logging.basicConfig(format="%(message)s", level=logging.WARNING)
     torch.set_num_threads(1)
     ablation = Ablation(read_yaml(SETTINGS), checkout_params())
-    rows = []
+    known, rows = _known(asked), []
     for row in (row for changed in asked for row in ablation.rows(changed)):
         rows.append(row)
         sys.stdout.write(f"{row['model']}, {row['changed']} {row['value']:g}: ")
         sys.stdout.write(f"{row['sim_mean']:.3f}, frequencies {row['freq_mean']:.3f}\n")
         sys.stdout.flush()
-    table = pd.DataFrame(rows)[list(SCHEMA.columns)].round(6)
-    if Path(REPORT).is_file():
-        known = read_table(REPORT, SCHEMA)
-        table = pd.concat([known[~known["changed"].isin(asked)], table], ignore_index=True)
-    write_table(table, REPORT, SCHEMA)
+        found = pd.DataFrame(rows)[list(SCHEMA.columns)].round(6)
+        write_table(pd.concat([known, found], ignore_index=True), REPORT, SCHEMA)
+
+
+def _known(asked: Sequence[str]) -> pd.DataFrame | None:
+    """The rows of the table that are not measured now; None if there is no table."""
+    if not Path(REPORT).is_file():
+        return None
+    table = read_table(REPORT, SCHEMA)
+    return table[~table["changed"].isin(asked)]
 
 
 if __name__ == "__main__":
