@@ -59,6 +59,8 @@ include: "workflow/rules/tables.smk"
 include: "workflow/rules/details.smk"
 include: "workflow/rules/generalisation.smk"
 include: "workflow/rules/demonstrations.smk"
+include: "workflow/rules/many_tasks.smk"
+include: "workflow/rules/learning_curve.smk"
 include: "workflow/rules/planning.smk"
 include: "workflow/rules/tracking.smk"
 include: "workflow/rules/kinds_common.smk"
@@ -92,6 +94,10 @@ localrules:
     tabulate_objects,
     tabulate_generalisation,
     tabulate_demonstrations,
+    tabulate_grasps_alone,
+    label_many_grasps,
+    tabulate_many_tasks,
+    plot_learning_curve,
     tabulate_robustness,
     tabulate_scan_plans,
     summarise_scores,
@@ -99,6 +105,7 @@ localrules:
     tabulate_general,
     publish_general,
     publish_demonstrations,
+    publish_many_tasks,
     plot_folds,
     plot_losses,
 
@@ -158,6 +165,7 @@ rule all:
 EXTRAS = [rules.evaluate_labels, rules.replay_grasps, rules.compare_shapes]
 EXTRAS += [rules.tabulate_generalisation, rules.compare_plans, rules.tabulate_robustness]
 EXTRAS += [rules.film_grasps, rules.plot_demonstrations, rules.tabulate_demonstrations]
+EXTRAS += [rules.tabulate_many_tasks, rules.plot_learning_curve]
 
 
 rule shown:

@@ -33,6 +33,7 @@ LIGHT = ("analyse", "compare", "plot", "summarise", "tabulate")
 STUDIES = {
     "analyse_general",
     "compare_plans",
+    "plot_learning_curve",
     "tabulate_demonstrations",
     "tabulate_general",
     "tabulate_generalisation",

@@ -35,6 +35,7 @@ OUTSIDE = (
     *("objects.names", "objects.own", "objects.import", "objects.variants", "objects.variation"),
     *("objects.variant_views", "objects.comparison", "contact_maps.measured", "hold_fit"),
     *("published", "replay", "generalisation", "demonstrations", "plan", "predict", "labels"),
+    *("many_tasks", "learning_curve"),
     "kinds",
     *("grasp_types.fitted_on", "grasp_types.softness", "grasp_types.own_frames"),
 )

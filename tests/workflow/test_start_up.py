@@ -53,6 +53,19 @@ def test_a_dry_run_imports_nothing_that_takes_seconds(fresh: Repository, tmp_pat
     assert "Job stats" in fresh.run("snakemake", "-n", PYTHONPATH=str(tmp_path))
 
 
+def test_studies_beside_the_main_job_have_a_job_for_what_objects_afford(
+    repository: Repository,
+) -> None:
+    """A banana is put away; a mug is also washed, and poured from."""
+    planned = repository.planned("many_tasks", "demonstrations", "reports/learning_curve.csv")
+    assert planned["synthesize_further_grasps"] == planned["map_further_contacts"] == 4
+    assert planned["extract_shifted_features"] == planned["demonstrate_further_tasks"] == 2
+    assert planned["learn_many_tasks"] == 7
+    assert planned["demonstrate_grasps_alone"] == planned["demonstrate_tasks"] == 2
+    assert planned["learn_from_fewer_views"] == 3
+    assert "synthesize_further_grasps" not in repository.planned()
+
+
 def test_jobs_start_only_for_who_holds_the_folder(repository: Repository) -> None:
     """Another process that reads the workflow does not disturb a run."""
     half = repository.path / "data/objects/mug/.live.1.tmp"

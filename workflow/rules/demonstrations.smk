@@ -18,6 +18,7 @@ rule demonstrate_tasks:
         pictures="data/demonstrations/{object}.zip",
     params:
         tasks=["handoff", "use"],
+        alone=False,
         hand=hand_parameter(config["hand"]),
         settings=settings("demonstrations", "missing", "sheet"),
         renders=settings("renders", "views", "sheet") | {"shadow_strength": 0.0},
@@ -78,6 +79,7 @@ rule learn_from_demonstrations:
     output:
         metrics="data/demonstrations/metrics/{labels}.csv",
     params:
+        model="demonstration",
         settings=settings("predictors"),
         missing=config["demonstrations"]["missing"],
         table=hashes([str(DEMONSTRATIONS)]),
@@ -113,9 +115,79 @@ rule tabulate_demonstrations:
         "../scripts/tabulate_demonstrations.py"
 
 
+# A control: the grasp alone, without the second hand or what the object acts on. Simulated labels hardly depend on the
+# task.
+CONTROLLED = [labels for labels in LABELS if labels == "published"] or LABELS
+
+
+use rule demonstrate_tasks as demonstrate_grasps_alone with:
+    output:
+        pictures="data/demonstrations/alone/{object}.zip",
+    params:
+        alone=True,
+    message:
+        "Showing {wildcards.object} in a hand"
+
+
+use rule describe_demonstrations as describe_grasps_alone with:
+    input:
+        pictures=rules.demonstrate_grasps_alone.output.pictures,
+        backbone=rules.prepare_backbone.output.record,
+    output:
+        features="data/demonstrations/alone/features/{object}.npz",
+    message:
+        "Extracting features of {wildcards.object} in a hand"
+
+
+use rule plot_demonstrations as plot_grasps_alone with:
+    input:
+        pictures=expand(rules.demonstrate_grasps_alone.output.pictures, object=DEMONSTRATED),
+    output:
+        sheet="reports/figures/grasps_alone.png",
+    message:
+        "Laying out the sheet of grasps alone"
+
+
+use rule learn_from_demonstrations as learn_from_grasps_alone with:
+    input:
+        inputs=lambda wildcards: expand(
+            rules.extract_features.output.features, object=DEMONSTRATORS[wildcards.labels]
+        ),
+        demonstrations=lambda wildcards: expand(
+            rules.describe_grasps_alone.output.features, object=DEMONSTRATORS[wildcards.labels]
+        ),
+        samples=lambda wildcards: SAMPLES[wildcards.labels],
+        folds=rules.split_folds.output.folds,
+        backbone=rules.prepare_backbone.output.record,
+    output:
+        metrics="data/demonstrations/alone/metrics/{labels}.csv",
+    params:
+        model="grasp_alone",
+    message:
+        "Testing the model that is shown a grasp ({wildcards.labels} labels)"
+
+
+use rule tabulate_demonstrations as tabulate_grasps_alone with:
+    input:
+        trials=expand(rules.learn_from_grasps_alone.output.metrics, labels=CONTROLLED),
+        others=expand(
+            rules.train_predictor.output.metrics,
+            labels=CONTROLLED,
+            model=["no_task", "task_vector", "task_in_image"],
+        ),
+    output:
+        table="reports/demonstrations_alone.csv",
+        markdown="reports/demonstrations_alone.md",
+    message:
+        "Tabulating the model that is shown a grasp"
+
+
 rule publish_demonstrations:
     input:
-        trials=rules.tabulate_demonstrations.input.trials,
+        trials=[
+            *rules.tabulate_demonstrations.input.trials,
+            *rules.tabulate_grasps_alone.input.trials,
+        ],
         features=expand(rules.describe_demonstrations.output.features, object=DEMONSTRATED),
     output:
         runs="reports/demonstration_runs.json",
@@ -134,6 +206,8 @@ rule demonstrations:
     input:
         rules.tabulate_demonstrations.output,
         rules.plot_demonstrations.output,
+        rules.tabulate_grasps_alone.output,
+        rules.plot_grasps_alone.output,
         rules.publish_demonstrations.output,
     message:
         "Demonstrations rendered, learnt from and published"

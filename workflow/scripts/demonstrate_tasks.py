@@ -9,7 +9,7 @@ from grasptypes.files import write_bytes, zip_bytes
 from grasptypes.hands.reading import load_hand
 from grasptypes.jobs import job
 from grasptypes.objects.object_files import read_surface
-from grasptypes.renders.demonstrations import Shown, handovers, pictures, uses
+from grasptypes.renders.demonstrations import Shown, pictures, scenes
 from grasptypes.renders.renderer import Camera
 from grasptypes.renders.scene import load_parts
 from grasptypes.settings.demonstrations import SceneSettings
@@ -24,21 +24,22 @@ def demonstrate_tasks(
     target: str | Path,
     settings: tuple[SceneSettings, CameraSettings],
     seed: int,
+    alone: bool,
 ) -> None:
     """Write `<number>_<task>.png` of each task and view to one archive.
 
     Args:
         tables: the grasps by task.
+        alone: without the second hand or the bodies that the task needs.
     """
     demonstrations, camera = settings
     members = {}
     with Camera(camera) as used:
         for task, path in tables.items():
             grasps = read_table(path, GRASP_SCHEMA)
-            make = handovers if task == "handoff" else uses
-            scenes = make(shown, grasps[grasps["valid"]], demonstrations)
+            shots_of = scenes(shown, grasps[grasps["valid"]], task, demonstrations, alone)
             key = f"{shown.name} {task}"
-            taken = pictures(scenes, used, (key, seed), demonstrations)
+            taken = pictures(shots_of, used, (key, seed), demonstrations)
             shots = tqdm(taken, key, total=demonstrations.views, mininterval=5)
             members |= {f"{number:03d}_{task}.png": png for number, png in enumerate(shots)}
     write_bytes(target, zip_bytes(members))
@@ -58,4 +59,5 @@ if __name__ == "__main__":
             snakemake.output.pictures,
             (SceneSettings.check(params.settings), CameraSettings.check(params.renders)),
             params.seed,
+            params.alone,
         )

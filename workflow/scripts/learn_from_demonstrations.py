@@ -8,7 +8,6 @@ import torch
 
 from grasptypes.jobs import job
 from grasptypes.predictors.demonstrations import (
-    MODEL,
     TASKS,
     TRIAL_SCHEMA,
     read_features,
@@ -26,16 +25,18 @@ from grasptypes.tables import write_table
 def learn_from_demonstrations(
     files: Mapping[str, Any],
     target: str | Path,
-    labels: str,
+    name: tuple[str, str],
     settings: tuple[PredictorSettings, float],
     seed: int,
 ) -> None:
     """Write the metrics, one row per split, kind of demonstration, fold and seed.
 
     Args:
+        name: label source and model.
         files: those of :func:`read_problem`, and `demonstrations`, features of one file per object.
         settings: of training, and the share of training examples without a demonstration.
     """
+    labels, model = name
     problem = read_problem(files, (labels, "no_task"), dict.fromkeys(TASKS, 0), settings[0])
     record = BackboneRecord.read(files["backbone"])
     found = try_demonstrations(
@@ -46,7 +47,7 @@ def learn_from_demonstrations(
         seed,
     )
     used = {"backbone": record.backbone, "weights": record.weights, "finetune": FROZEN}
-    table = found.assign(labels=labels, model=MODEL, **used)
+    table = found.assign(labels=labels, model=model, **used)
     write_table(table[[*METRIC_SCHEMA.columns, "split", "told"]], target, TRIAL_SCHEMA)
 
 
@@ -57,7 +58,7 @@ if __name__ == "__main__":
         learn_from_demonstrations(
             dict(snakemake.input.items()),
             snakemake.output.metrics,
-            snakemake.wildcards.labels,
+            (snakemake.wildcards.labels, params.model),
             (PredictorSettings.check(params.settings | {"finetune": FROZEN}), params.missing),
             params.seed,
         )

@@ -6,7 +6,7 @@ demonstrations of that fold, and has learnt from those of the others.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -32,11 +32,13 @@ SPLITS = ("views", "objects", "actions")
 # The task that a test's demonstration shows: that of the label, the other one, or no demonstration.
 TOLD = ("right", "wrong", "none")
 MODEL = "demonstration"
+# The same model with grasps alone, without the second hand or what the object acts on.
+ALONE = "grasp_alone"
 
 # Empty for models that are told the task otherwise.
 _KEYS = {"split": pa.Column(str, nullable=True), "told": pa.Column(str, nullable=True)}
 TRIAL_SCHEMA = pa.DataFrameSchema(
-    {**METRIC_SCHEMA.columns, "model": pa.Column(str, pa.Check.eq(MODEL)), **_KEYS},
+    {**METRIC_SCHEMA.columns, "model": pa.Column(str, pa.Check.isin([MODEL, ALONE])), **_KEYS},
     strict=True,
     coerce=True,
     unique=["labels", "split", "told", "group", "seed"],
@@ -72,8 +74,11 @@ class Demonstrations:
     features: np.ndarray
 
 
-def read_features(paths: Iterable[str | Path]) -> Demonstrations:
+def read_features(paths: Iterable[str | Path], tasks: Sequence[str] = TASKS) -> Demonstrations:
     """Demonstrations from files of features, named after their objects.
+
+    Args:
+        tasks: that images show in turn.
 
     Raises:
         InputError: a file has not the same number of images of each task.
@@ -81,13 +86,19 @@ def read_features(paths: Iterable[str | Path]) -> Demonstrations:
     tables, parts = [], []
     for path in map(Path, paths):
         found = read_npz(path)[NO_TASK]
-        views, rest = divmod(len(found), len(TASKS))
+        views, rest = divmod(len(found), len(tasks))
         if rest:
-            raise InputError(path, NO_TASK, f"{len(found)} images of {len(TASKS)} tasks")
-        shown = {"task": np.tile(TASKS, views), "view": np.repeat(np.arange(views), len(TASKS))}
+            raise InputError(path, NO_TASK, f"{len(found)} images of {len(tasks)} tasks")
+        shown = {"task": np.tile(tasks, views), "view": np.repeat(np.arange(views), len(tasks))}
         tables.append(pd.DataFrame({"object": path.stem, **shown}))
         parts.append(found)
     return Demonstrations(pd.concat(tables, ignore_index=True), np.concatenate(parts))
+
+
+def together(several: Sequence[Demonstrations]) -> Demonstrations:
+    """One table of several."""
+    index = pd.concat([each.index for each in several], ignore_index=True)
+    return Demonstrations(index, np.concatenate([each.features for each in several]))
 
 
 def folds_of(
@@ -167,17 +178,17 @@ def try_demonstrations(
         seen["none"] = np.zeros_like(seen["right"])
         hidden = rng(*key, "missing").random(len(examples.index)) < missing
         heads, _ = fit(
-            _beside(examples, np.where(hidden[:, None], 0, seen["right"])), members, training, key
+            beside(examples, np.where(hidden[:, None], 0, seen["right"])), members, training, key
         )
         for told in TOLD:
-            tested = _beside(examples, seen[told])
+            tested = beside(examples, seen[told])
             logits = [predict(heads, k, tested, member.test) for k, member in enumerate(members)]
             metrics, _ = score(tested, members, logits)
             tables.append(metrics.assign(split=split, told=told))
     return pd.concat(tables, ignore_index=True)
 
 
-def _beside(examples: Examples, second: np.ndarray) -> Examples:
+def beside(examples: Examples, second: np.ndarray) -> Examples:
     """The examples with the features of a second image beside those of the first."""
     inputs = np.hstack([examples.inputs, second]).astype(np.float32)
     return replace(examples, inputs=inputs)

@@ -57,19 +57,39 @@ class Shown:
     hand: Hand
 
 
-def uses(shown: Shown, grasps: pd.DataFrame, settings: SceneSettings) -> list[list[Part]]:
+def scenes(
+    shown: Shown, grasps: pd.DataFrame, task: str, settings: SceneSettings, alone: bool = False
+) -> list[list[Part]]:
+    """Scenes (z up) of an object at a task, one per grasp.
+
+    Args:
+        grasps: valid ones.
+        alone: without the second hand or the bodies that the task needs.
+    """
+    if task == "handoff":
+        return handovers(shown, grasps, settings, alone)
+    return uses(shown, grasps, settings, task, alone)
+
+
+def uses(
+    shown: Shown,
+    grasps: pd.DataFrame,
+    settings: SceneSettings,
+    task: str = "use",
+    alone: bool = False,
+) -> list[list[Part]]:
     """Scenes (z up) of an object in use, one per grasp; hands that touch the bodies least first.
 
     Args:
         grasps: valid ones.
+        task: any but `handoff`.
+        alone: without the bodies.
 
     Raises:
         InputError: the table does not say how the object is used, or names a part it lacks.
     """
     table = read_demonstrations()
-    if shown.name not in table.uses:
-        raise InputError(DEMONSTRATIONS, f"uses.{shown.name}", "is missing")
-    use = table.uses[shown.name]
+    use = table.use_of(shown.name, task)
     action = table.actions[use.action]
     found = []
     for row in grasps.itertuples():
@@ -78,11 +98,14 @@ def uses(shown: Shown, grasps: pd.DataFrame, settings: SceneSettings) -> list[li
         points = _points(state) @ T_world_object[:3, :3].T + T_world_object[:3, 3]
         inside = sum(_inside(body, points).mean() for body in action.bodies)
         scene = moved([*shown.parts, *hand_parts(state)], T_world_object)
-        found.append((inside, [*scene, *map(body_part, action.bodies)]))
+        bodies = [] if alone else map(body_part, action.bodies)
+        found.append((inside, [*scene, *bodies]))
     return _first(found, settings.grasps)
 
 
-def handovers(shown: Shown, grasps: pd.DataFrame, settings: SceneSettings) -> list[list[Part]]:
+def handovers(
+    shown: Shown, grasps: pd.DataFrame, settings: SceneSettings, alone: bool = False
+) -> list[list[Part]]:
     """Scenes (z up) of an object that a second, open hand is about to take, one per grasp.
 
     The second hand approaches for another grasp of the object, that which is farthest from the
@@ -90,6 +113,7 @@ def handovers(shown: Shown, grasps: pd.DataFrame, settings: SceneSettings) -> li
 
     Args:
         grasps: valid ones.
+        alone: without the second hand.
     """
     rows = list(grasps.itertuples())
     givers = [_points(state_of(shown.hand, row)) for row in rows]
@@ -106,7 +130,8 @@ def handovers(shown: Shown, grasps: pd.DataFrame, settings: SceneSettings) -> li
         T_world_object = np.eye(4)
         T_world_object[:3, :3] = _upright(across)
         taker = moved(hand_parts(_open(shown.hand, rows[best])), nearer)
-        parts = [*shown.parts, *hand_parts(state_of(shown.hand, row)), *taker]
+        giving = hand_parts(state_of(shown.hand, row))
+        parts = [*shown.parts, *giving, *([] if alone else taker)]
         found.append((-gap_m, moved(parts, T_world_object)))
     return _first(found, settings.grasps)
 
@@ -191,10 +216,11 @@ def _placed(shown: Shown, use: Use, acts: str, state: HandStates) -> Array:
     ahead, up = unit(ahead), unit(up - (up @ unit(ahead)) * unit(ahead))
     surface = shown.surface
     names = list(surface.part_names)
-    if use.part not in names:
+    if use.part and use.part not in names:
         message = f"'{use.part}' is not a part: {', '.join(names)}"
         raise InputError(DEMONSTRATIONS, f"uses.{shown.name}.part", message)
-    points = surface.vertices[surface.part_index == names.index(use.part)]
+    chosen = [names.index(use.part)] if use.part else range(len(names))
+    points = surface.vertices[np.isin(surface.part_index, chosen)]
     along = points @ (ahead if acts == "ahead" else -up)
     T_world_object = np.eye(4)
     T_world_object[:3, :3] = [ahead, np.cross(up, ahead), up]

@@ -9,6 +9,7 @@ from typing import Annotated, Literal, Self
 
 from pydantic import Field, model_validator
 
+from grasptypes.errors import InputError
 from grasptypes.settings.base import (
     Many,
     MisplacedError,
@@ -23,6 +24,8 @@ from grasptypes.settings.renders import RenderSheet
 from grasptypes.yaml_files import read_yaml
 
 DEMONSTRATIONS = Path(__file__).with_suffix(".yaml")
+# In the table of a task, all objects that it does not name.
+ANY = "any"
 
 
 class Body(Settings):
@@ -47,7 +50,7 @@ class Use(Settings):
     """How an object is used; directions are in its own frame."""
 
     action: Name = setting("of the table")
-    part: Name = setting("part of the object that acts")
+    part: Name | Literal[""] = setting("part of the object that acts; empty: all of it")
     ahead: Triple[float] = setting("points ahead")
     up: Triple[float] = setting("points up")
     round: bool = setting("may be turned about z, so that the hand is behind", default=False)
@@ -66,14 +69,29 @@ class DemonstrationTable(Settings):
 
     actions: dict[Name, Action] = setting("actions by name", min_length=1)
     uses: dict[Name, Use] = setting("use of each object", min_length=1)
+    tasks: dict[Name, dict[Name, Use]] = setting("the same for other tasks, by task and object")
 
     @model_validator(mode="after")
     def _knows_actions(self) -> Self:
-        for name, use in self.uses.items():
-            if use.action not in self.actions:
-                message = f"'{use.action}' is not one of {', '.join(self.actions)}"
-                raise MisplacedError(f"uses.{name}.action", message)
+        for key, uses in {"uses": self.uses, **self.tasks}.items():
+            for name, use in uses.items():
+                if use.action not in self.actions:
+                    message = f"'{use.action}' is not one of {', '.join(self.actions)}"
+                    path = key if key == "uses" else f"tasks.{key}"
+                    raise MisplacedError(f"{path}.{name}.action", message)
         return self
+
+    def use_of(self, name: str, task: str, path: str | Path = DEMONSTRATIONS) -> Use:
+        """How an object is shown at a task that is not handing it over.
+
+        Raises:
+            InputError: the table does not say it, neither for the object nor for any.
+        """
+        uses = self.uses if task == "use" else self.tasks.get(task, {})
+        if name not in uses and ANY not in uses:
+            key = "uses" if task == "use" else f"tasks.{task}"
+            raise InputError(path, f"{key}.{name}", "is missing")
+        return uses.get(name) or uses[ANY]
 
 
 @cache

@@ -16,6 +16,7 @@ from grasptypes.settings.general import GeneralSettings
 from grasptypes.settings.grasp_types import GraspTypeSettings, PublishedSettings, ReplaySettings
 from grasptypes.settings.holds import HoldFitSettings
 from grasptypes.settings.kinds import KindSettings
+from grasptypes.settings.many_tasks import LearningCurveSettings, ManyTaskSettings
 from grasptypes.settings.objects import ObjectSettings, TaskSettings
 from grasptypes.settings.physics import GraspTestSettings
 from grasptypes.settings.predictors import (
@@ -77,6 +78,8 @@ class Params(Settings):
     predictors: PredictorSettings
     generalisation: GeneralisationSettings
     demonstrations: DemonstrationSettings
+    many_tasks: ManyTaskSettings
+    learning_curve: LearningCurveSettings
     predict: PredictSettings
     plan: PlanSettings
     tracking: TrackingSettings

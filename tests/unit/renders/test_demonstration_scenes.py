@@ -9,9 +9,10 @@ from tests.unit.settings import PARAMS
 
 from grasptypes.errors import InputError
 from grasptypes.hands import configuration
+from grasptypes.objects.affordances import afforded
 from grasptypes.objects.object_files import Surface
 from grasptypes.objects.part_roles import part_roles
-from grasptypes.renders.demonstrations import Shown, body_part, handovers, uses
+from grasptypes.renders.demonstrations import Shown, body_part, handovers, scenes, uses
 from grasptypes.renders.scene import Part
 from grasptypes.settings.demonstrations import Body, DemonstrationTable, read_demonstrations
 
@@ -73,9 +74,31 @@ def test_the_second_hand_comes_as_near_as_the_settings_say():
     assert gap_m == pytest.approx(0.03, abs=ROUGH_M)
 
 
+def test_the_grasp_alone_is_shown_as_it_is_in_the_scene():
+    apple, taken = ball("apple", "flesh"), grasps((0, 1, 0), (0, -1, 0))
+    basin = len(read_demonstrations().actions["rinse"].bodies)
+    for task, more in (("handoff", None), ("wash", basin)):
+        whole = scenes(apple, taken, task, PARAMS.demonstrations)
+        alone = scenes(apple, taken, task, PARAMS.demonstrations, alone=True)
+        assert len(alone) == len(whole) == 2
+        for part, other in zip(alone, whole, strict=True):
+            assert len(other) - len(part) == (more or len(part) - 1)
+            assert (points(part) == points(other[: len(part)])).all()
+
+
 def test_every_object_of_the_table_has_the_part_that_acts():
-    for name, use in read_demonstrations().uses.items():
-        assert use.part in part_roles(name), name
+    table = read_demonstrations()
+    for uses_of in (table.uses, *table.tasks.values()):
+        for name, use in uses_of.items():
+            assert not use.part or use.part in part_roles(name), name
+
+
+def test_every_task_that_an_object_affords_can_be_shown():
+    table = read_demonstrations()
+    for name, task in afforded(list(table.uses), list(PARAMS.many_tasks.tasks)):
+        assert task == "handoff" or table.use_of(name, task).action in table.actions
+    with pytest.raises(InputError, match=r"tasks\.cut\.mug: is missing"):
+        table.use_of("mug", "cut")
 
 
 def test_objects_without_a_use_or_the_part_are_errors():

@@ -9,7 +9,7 @@ ROOT = Path(__file__).parents[3]
 # commands, or to the last two stages, which depend on the whole file.
 ELSEWHERE = {
     "contact_pictures", "demonstrations", "general", "generalisation", "hold_fit", "kinds",
-    "plan", "predict", "replay", "robustness", "tracking",
+    "learning_curve", "many_tasks", "plan", "predict", "replay", "robustness", "tracking",
 }  # fmt: skip
 
 
