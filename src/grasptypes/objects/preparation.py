@@ -154,7 +154,7 @@ def _beside(mesh: trimesh.Trimesh) -> NDArray[np.float64]:
 def _coloured(
     imported: ImportedModel, crease_deg: float
 ) -> tuple[list[Part], Manifold, SurfaceColours | None]:
-    """The parts, their union with normals, and its colours; its faces are small where these vary."""
+    """The parts, their union with normals, and its colours; where these vary, faces are small."""
     model, scale = imported.model, imported.scale
     parts = scaled_parts(model, scale)
     solid = joined(parts).calculate_normals(0, crease_deg)
