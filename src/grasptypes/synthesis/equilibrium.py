@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from grasptypes.compiled import compiled
 from grasptypes.settings.synthesis import EquilibriumSettings
 from grasptypes.synthesis.fields import Field, distance, gradient
-from grasptypes.synthesis.hand_model import HandModel
+from grasptypes.synthesis.hand_model import Indices
 from grasptypes.synthesis.posed_links import moved
 from grasptypes.synthesis.scene import GraspScene
 
@@ -34,8 +34,9 @@ def wrench_residual(scene: GraspScene, link_poses: Array, settings: EquilibriumS
     Returns:
         (n,) newtons, an upper bound, 0 (balanced) to 1; 1 if nothing touches.
     """
+    model = scene.model
     return _wrench_residuals(
-        *(scene.model, scene.field, link_poses),
+        *(model.points, model.starts, model.centres, model.radii, scene.field, link_poses),
         *(scene.centre_of_mass_m, scene.radius_m),
         *(settings.friction, settings.cone_edges, settings.contact_m, settings.iterations),
     )
@@ -43,19 +44,19 @@ def wrench_residual(scene: GraspScene, link_poses: Array, settings: EquilibriumS
 
 @compiled()
 def _wrench_residuals(
-    model: HandModel, grid: Field, poses: Array, centre: Array, radius: float, friction: float,
-    edges: int, contact_m: float, iterations: int,
+    points: Array, starts: Indices, centres: Array, radii: Array, grid: Field, poses: Array,
+    centre: Array, radius: float, friction: float, edges: int, contact_m: float, iterations: int,
 ) -> Array:  # fmt: skip
     result = np.ones(len(poses))
-    wrenches = np.empty((len(model.points) * edges, 6))
+    wrenches = np.empty((len(points) * edges, 6))
     for n in range(len(poses)):
         count = 0
-        for link in range(len(model.radii)):
-            cx, cy, cz = moved(poses[n, link], model.centres, link)
-            if distance(grid, cx, cy, cz) - model.radii[link] > contact_m:
+        for link in range(len(radii)):
+            cx, cy, cz = moved(poses[n, link], centres, link)
+            if distance(grid, cx, cy, cz) - radii[link] > contact_m:
                 continue
-            for index in range(model.starts[link], model.starts[link + 1]):
-                x, y, z = moved(poses[n, link], model.points, index)
+            for index in range(starts[link], starts[link + 1]):
+                x, y, z = moved(poses[n, link], points, index)
                 if distance(grid, x, y, z) <= contact_m:
                     gx, gy, gz = gradient(grid, x, y, z)
                     arm = (x - centre[0], y - centre[1], z - centre[2])
