@@ -57,7 +57,14 @@ MODELS = {
     "probability_weight": ["task_vector", "e_mobilenet_v2"],
     "views": ["task_vector", "task_in_image"],
     "resolutions": ["task_vector", "task_in_image"],
-    "fine_tuned": [*VARIANTS, MODEL],
+    "fine_tuned": [
+        "ignores_task",
+        "no_task",
+        "task_vector",
+        "task_in_image",
+        MODEL,
+        "e_mobilenet_v2",
+    ],
 }
 # Of these, what takes long.
 ONLY_IF_NAMED = ("fine_tuned",)
