@@ -128,6 +128,42 @@ def test_the_table_of_hands_is_that_of_the_results() -> None:
         assert f"{row.sim_mean:.3f} / {row.acc_mean:.3f} / {row.prec_mean:.3f}" in page
 
 
+TOLD_BY = {
+    "(a) not told": "no_task",
+    "(b) one-hot vector": "task_vector",
+    "(c) colour shift": "task_in_image",
+    "FiLM, embedding": "film",
+    "Affordance vector": "affordance_vector",
+    "FiLM, affordance vector": "film_affordance",
+    "(f) demonstration": "demonstration",
+    "Best constant answer": "constant",
+    "Best answer to each object": "object_known",
+}
+
+
+def test_the_table_of_many_tasks_is_that_of_the_results() -> None:
+    page = (ROOT / "docs/paper.md").read_text()
+    keys = ["split", "model", "tasks", "evaluated"]
+    table = pd.read_csv(RESULTS / "many_tasks.csv").set_index(keys).sort_index()
+    columns = [("views", number, "all") for number in (2, 4, 8)]
+    columns += [("views", 8, "differing"), ("tasks", 8, "all")]
+    rows = {
+        name: cells
+        for name, *cells in re.findall(r"^\| ([^|]+)" + r" \| ([^|]+)" * 5 + r" \|$", page, re.M)
+        if name in TOLD_BY
+    }
+    assert list(rows) == list(TOLD_BY)
+    for name, cells in rows.items():
+        for cell, (split, number, evaluated) in zip(cells, columns, strict=True):
+            key = (split, TOLD_BY[name], number, evaluated)
+            if key not in table.index:
+                assert cell == "-"
+                continue
+            row = table.loc[key]
+            error = "" if pd.isna(row.sim_se) else f" ± {row.sim_se:.3f}"
+            assert cell == f"{row.sim_mean:.3f}{error}"
+
+
 def test_results_are_quoted_and_the_others_are_not_in_git() -> None:
     quoted = "".join(page.read_text() for page in PAGES)
     assert [path.name for path in RESULTS.iterdir() if path.stem not in quoted] == []
