@@ -10,8 +10,9 @@ import torch
 
 from grasptypes.predictors.backbone import Backbone
 from grasptypes.predictors.features import for_inference, forward
+from grasptypes.predictors.general_inputs import task_vector
 from grasptypes.settings.roles import read_roles
-from grasptypes.settings.tasks import Direction, Grip, Task, read_tasks
+from grasptypes.settings.tasks import Direction, Task, read_tasks
 
 
 def shifted_features(
@@ -54,22 +55,14 @@ def affordance_vectors(tasks: Sequence[Task]) -> np.ndarray:
     Returns:
         (T, D) float32 between 0 and 1.
     """
-    roles, directions, grips = list(read_roles().roles), get_args(Direction), get_args(Grip)
+    roles, directions = list(read_roles().roles), get_args(Direction)
     largest_n = max(load.force_n for task in read_tasks().values() for load in task.wrenches)
     rows = []
     for task in tasks:
         loads = task.wrenches
         loaded = {role for load in loads for role in load.at}
-        rows.append(
-            [
-                *(task.touched.get(role, 0.0) for role in roles),
-                *(float(role in task.free) for role in roles),
-                *(float(role in loaded) for role in roles),
-                task.hazard,
-                *task.position,
-                *(task.grips.get(grip, 1.0) for grip in grips),
-                *(np.mean([load.along == way for load in loads]) for way in directions),
-                max(load.force_n for load in loads) / largest_n,
-            ]
-        )
+        # Roles that bear loads stand beside those that are touched or stay free.
+        known = np.insert(task_vector(task), 2 * len(roles), [role in loaded for role in roles])
+        along = [np.mean([load.along == way for load in loads]) for way in directions]
+        rows.append([*known, *along, max(load.force_n for load in loads) / largest_n])
     return np.array(rows, dtype=np.float32)

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import hashlib
 import json
 from collections.abc import Mapping
 
 import pandas as pd
 
 from grasptypes.predictors.metrics import METRICS
-from grasptypes.runs.tracking import RunRecord
+from grasptypes.runs.tracking import RunRecord, run_key
 
 
 def demonstration_records(
@@ -35,10 +34,10 @@ def demonstration_records(
         fixed = ["labels", "model", "split", "backbone", "weights", "finetune"]
         stated = {"hand": tags["hand"], **flat, **table.iloc[0][fixed]}
         params = {name: str(value) for name, value in stated.items()}
-        key = _digest(table.to_csv(index=False), json.dumps(params, sort_keys=True))
+        key = run_key(table.to_csv(index=False), json.dumps(params, sort_keys=True))
         children = [
             RunRecord(
-                key=_digest(key, str(fold), str(seed)),
+                key=run_key(key, str(fold), str(seed)),
                 name=f"fold {fold}, seed {seed}",
                 times_ms=times_ms,
                 params={**params, "fold": str(fold), "seed_number": str(seed)},
@@ -59,7 +58,3 @@ def _measures(trials: pd.DataFrame) -> dict[str, float]:
     for told, row in means.drop("right").iterrows():
         found |= {f"{told}.{name}": float(row[name]) for name in METRICS}
     return found
-
-
-def _digest(*parts: str) -> str:
-    return hashlib.sha256("\n".join(parts).encode()).hexdigest()[:32]

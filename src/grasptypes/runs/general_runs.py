@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
 import json
 from collections.abc import Mapping
 
@@ -13,7 +12,7 @@ from grasptypes.predictors.general_predictor import GENERAL
 from grasptypes.predictors.general_protocol import KINDS, SIMULATED, WITH_SIZE
 from grasptypes.predictors.metrics import METRICS
 from grasptypes.reports.table3 import object_means, score
-from grasptypes.runs.tracking import RunRecord
+from grasptypes.runs.tracking import RunRecord, run_key
 from grasptypes.settings.general import GeneralSettings
 
 # The measures of Table III in the order of `METRICS`.
@@ -49,7 +48,7 @@ def general_record(
     stated |= {"backbone": settings.backbone, **flat}
     params = {name: str(value) for name, value in stated.items()}
     content = json.dumps([params, table.to_dict("records")], sort_keys=True)
-    key = _digest(content)
+    key = run_key(content)
     asked = answers[(answers["shown"] == KINDS) & (answers["model"] == WITH_SIZE)]
     means = object_means(score(asked, samples)).reset_index()
     folds = family_folds(families, settings.protocol.folds, seed)
@@ -58,7 +57,7 @@ def general_record(
         mine = means[[bool(families[name] & fold) for name in means["object"]]]
         children.append(
             RunRecord(
-                key=_digest(key, str(number)),
+                key=run_key(key, str(number)),
                 name=f"fold {number}",
                 times_ms=times_ms,
                 params={**params, "fold": str(number), "families": ", ".join(sorted(fold))},
@@ -76,7 +75,3 @@ def general_record(
 
 def _measures(row: pd.Series) -> dict[str, float]:
     return {name: float(row[mine]) for name, mine in zip(METRICS, MEASURES, strict=True)}
-
-
-def _digest(*parts: str) -> str:
-    return hashlib.sha256("\n".join(parts).encode()).hexdigest()[:32]

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import hashlib
 import json
 from collections.abc import Mapping
 
 import pandas as pd
 
 from grasptypes.predictors.many_task_tables import mean_of_pairs
-from grasptypes.runs.tracking import RunRecord
+from grasptypes.runs.tracking import RunRecord, run_key
 
 
 def many_task_records(
@@ -33,11 +32,11 @@ def many_task_records(
         known = {"labels": "simulated", "model": model, "split": split, "tasks": number}
         stated = {"hand": tags["hand"], **flat, **known}
         params = {name: str(value) for name, value in stated.items()}
-        key = _digest(table.to_csv(index=False), json.dumps(params, sort_keys=True))
+        key = run_key(table.to_csv(index=False), json.dumps(params, sort_keys=True))
         runs = mean_of_pairs(table)
         children = [
             RunRecord(
-                key=_digest(key, str(group), str(seed)),
+                key=run_key(key, str(group), str(seed)),
                 name=f"{'fold' if split == 'views' else 'without'} {group}, seed {seed}",
                 times_ms=times_ms,
                 params={**params, "fold": str(group), "seed_number": str(seed)},
@@ -52,7 +51,3 @@ def many_task_records(
         name = f"simulated {model}, {what}"
         records.append(RunRecord(key, name, times_ms, params, means, {}, tags, children))
     return records
-
-
-def _digest(*parts: str) -> str:
-    return hashlib.sha256("\n".join(parts).encode()).hexdigest()[:32]

@@ -7,6 +7,7 @@ adds nothing, and a deleted store is rebuilt with the same runs.
 from __future__ import annotations
 
 import contextlib
+import hashlib
 import json
 import os
 import sqlite3
@@ -84,6 +85,11 @@ class TrainedModel:
     times_ms: tuple[int, int]
     hand: str
     figures: Sequence[Path] = ()
+
+
+def run_key(*parts: str) -> str:
+    """The key of a run, 32 hex digits: what it was made from, or its parent's key and its place."""
+    return hashlib.sha256("\n".join(parts).encode()).hexdigest()[:32]
 
 
 @dataclass(frozen=True)
