@@ -90,25 +90,6 @@ def hold(
     return result._replace(bears_load=bears_load(engine, motors, T_object_hand, load))
 
 
-def hold_in_all(
-    engines: Sequence[Engine],
-    T_object_hand: Array,
-    joint_positions: Array,
-    load: TaskLoad | None = None,
-) -> HoldResult:
-    """The test in several engines: the first one's result, dropped if one of them drops the object.
-
-    The load acts in the first engine only.
-    """
-    first, *others = engines
-    result = hold(first, T_object_hand, joint_positions, load=load)
-    for other in others:
-        if result.dropped:
-            break
-        result = result._replace(dropped=hold(other, T_object_hand, joint_positions).dropped)
-    return result
-
-
 def squeeze(
     engine: Engine,
     T_object_hand: Array,

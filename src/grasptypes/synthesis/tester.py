@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -16,6 +16,8 @@ from grasptypes.synthesis.energy import closeness
 from grasptypes.synthesis.scene import GraspScene
 
 Array = NDArray[np.float64]
+
+PhysicsTest = Callable[[Array, Array], HoldResult]
 
 
 class GraspTrial(NamedTuple):
@@ -49,17 +51,21 @@ class GraspTester:
     Args:
         scene: scene with the fine hand.
         hold: the physics test, of a pose (4, 4) and joint positions (J,).
+        others: tests in other engines. They cost most, so only a grasp that is held without a flaw
+            takes them, and it must pass them all.
     """
 
     def __init__(
         self,
         scene: GraspScene,
-        hold: Callable[[Array, Array], HoldResult],
+        hold: PhysicsTest,
         validity: ValiditySettings,
+        others: Sequence[PhysicsTest] = (),
     ) -> None:
         self.scene = scene
         self.hold = hold
         self.validity = validity
+        self.others = others
 
     def try_grasp(self, T_object_hand: Array, joint_positions: Array) -> GraspTrial:
         """Check a grasp as planned; if it has no flaw, test it, and check it as held."""
@@ -72,8 +78,9 @@ class GraspTester:
             return planned
         held = self.hold(T_object_hand, joint_positions)
         moved = held.moved_m, held.turned_rad
+        dropped = planned._replace(reason="dropped", moved_m=moved[0], turned_rad=moved[1])
         if held.dropped:
-            return planned._replace(reason="dropped", moved_m=moved[0], turned_rad=moved[1])
+            return dropped
         # One motor moves all joints of a preshape, but the simulation has one each.
         shared = hand.preshaped(hand.preshape_of(held.joint_positions))
         closing = [joint for finger in hand.fingers for joint in finger.joints]
@@ -85,6 +92,8 @@ class GraspTester:
             reason = "joint_limit"
         elif not reason and len(links) < self.validity.min_links:
             reason = "no_contact"
+        if not reason and any(test(*touching).dropped for test in self.others):
+            return dropped
         state = held.T_object_hand, positions, depth, *moved, held.contacts
         return GraspTrial(reason, *state, held.bears_load, held.stages, *touching)
 

@@ -21,7 +21,7 @@ from grasptypes.hands.hand import Hand
 from grasptypes.hands.states import HandStates
 from grasptypes.objects.object_geometry import ObjectGeometry
 from grasptypes.physics.engines import engine
-from grasptypes.physics.holding import hold_in_all
+from grasptypes.physics.holding import hold
 from grasptypes.physics.loads import TaskLoad
 from grasptypes.seeds import rng, seed
 from grasptypes.settings.physics import GraspTestSettings, ValiditySettings
@@ -67,8 +67,13 @@ def synthesize(
             stack.enter_context(engine(name, hand, task.geometry, test.test))
             for name in test.test.engines
         ]
-        test_grasp = partial(hold_in_all, worlds, load=task.load)
-        tester = GraspTester(check, test_grasp, test.validity)
+        first, *others = worlds
+        tester = GraspTester(
+            check,
+            partial(hold, first, load=task.load),
+            test.validity,
+            [partial(hold, other) for other in others],
+        )
         return synthesize_sessions(task, search, tester, settings)
 
 

@@ -7,7 +7,7 @@ from tests.unit.barrett import BARRETT, COUPLING
 from tests.unit.settings import PARAMS
 
 from grasptypes.physics.engines import engine
-from grasptypes.physics.holding import hold, hold_in_all
+from grasptypes.physics.holding import hold
 from grasptypes.physics.loads import TaskLoad
 from grasptypes.poses import inverse
 
@@ -154,20 +154,6 @@ def test_a_load_that_is_too_large_is_noted_and_changes_nothing_else(body) -> Non
     assert not heavy.bears_load
     assert not heavy.dropped
     assert bytes_of(heavy) == bytes_of(light) == bytes_of(plain)
-
-
-def test_a_grasp_must_hold_in_all_engines_and_the_first_one_is_recorded(body) -> None:
-    with (
-        engine("mujoco", BARRETT, body, STILL) as first,
-        engine("pybullet", BARRETT, body, STILL) as second,
-    ):
-        alone = hold(first, *GOOD)
-        both = hold_in_all([first, second], *GOOD)
-        second.settings = STILL.changed(friction=0.0)
-        without_friction = hold_in_all([first, second], *SLIPPING)
-        assert not hold(first, *SLIPPING).dropped
-    assert bytes_of(alone) == bytes_of(both)
-    assert without_friction.dropped
 
 
 @pytest.mark.parametrize("changes", [{"hold_time_s": 0.15}, {"control_steps": 100}])

@@ -70,6 +70,26 @@ def test_reasons() -> None:
     assert tried(World([True], sink_m=0.01)).reason == "penetrates"
 
 
+def test_a_grasp_must_hold_in_all_engines_and_the_first_one_is_recorded() -> None:
+    first, others = World([True], sink_m=0.001), [World([True]), World([False])]
+    alone = tried(first)
+    tests = [other.hold for other in others]
+    agreed = GraspTester(scene_of(), first.hold, VALIDITY, tests[:1]).try_grasp(T[0], ANGLES)
+    refused = GraspTester(scene_of(), first.hold, VALIDITY, tests).try_grasp(T[0], ANGLES)
+    assert not alone.reason
+    assert not agreed.reason
+    assert np.array_equal(agreed.T_object_hand, alone.T_object_hand)
+    assert refused.reason == "dropped"
+    assert np.array_equal(refused.T_object_hand, T[0])
+
+
+def test_a_grasp_that_the_first_engine_refuses_is_not_tested_again() -> None:
+    other = World([True])
+    for first in (World([False]), World([True], sink_m=0.01), World([True], links=(6,))):
+        GraspTester(scene_of(), first.hold, VALIDITY, [other.hold]).try_grasp(T[0], ANGLES)
+    assert other.seen == 0
+
+
 @pytest.mark.parametrize(("degrees", "reason"), [(1.5, ""), (2.5, "joint_limit")])
 def test_a_fingertip_that_was_pushed_behind_its_finger_is_no_state_of_the_hand(
     degrees, reason
