@@ -177,3 +177,21 @@ def test_the_table_of_holds_has_the_fitted_numbers() -> None:
     parameters = free_parameters(read_hold_table(), PARAMS.hold_fit)
     in_table = {parameter.key: parameter.in_table for parameter in parameters}
     assert in_table == pytest.approx(fitted.to_dict(), abs=0.011)
+
+
+def test_the_papers_page_shows_the_fine_tuned_runs_of_the_results() -> None:
+    rows = pd.read_csv(RESULTS / "ablations.csv").query("changed == 'fine_tuned'")
+    frozen, tuned = (rows[rows["value"] == value].set_index("model") for value in (0, 3))
+    names = {
+        "no_task": "a",
+        "task_vector": "b",
+        "task_in_image": "c",
+        "ignores_task": "task ignored",
+        "demonstration": "f",
+        "e_mobilenet_v2": "e",
+    }
+    page = (ROOT / "docs/paper.md").read_text()
+    assert set(tuned.index) == set(names)
+    for model, name in names.items():
+        cells = [t.loc[model, c] for c in ("sim_mean", "freq_mean") for t in (frozen, tuned)]
+        assert f"\n  | {name} | {' | '.join(f'{cell:.3f}' for cell in cells)} |\n" in page

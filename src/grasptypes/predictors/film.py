@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 import torch
@@ -15,7 +16,7 @@ from torch import Tensor, nn
 from grasptypes.predictors.examples import Examples
 from grasptypes.predictors.members import Member
 from grasptypes.predictors.predictor import LAYERS, Architecture, BatchedMLP
-from grasptypes.predictors.training import TrainingTensors, _descend, _principal
+from grasptypes.predictors.training import TrainingTensors, fit_projected
 from grasptypes.seeds import seed
 from grasptypes.settings.predictors import PredictorSettings
 
@@ -41,6 +42,7 @@ class FilmHeads(BatchedMLP):
         embedding: int,
     ) -> None:
         super().__init__(replace(architecture, tasks=0), keys, dropout)
+        self.told, self.embedding = architecture, embedding
         tasks, width = architecture.tasks, architecture.hidden[0]
         generators = [torch.Generator().manual_seed(seed("embedding", *key)) for key in keys]
         start = [torch.randn(tasks, embedding, generator=g) for g in generators]
@@ -61,6 +63,13 @@ class FilmHeads(BatchedMLP):
                 x = x * (1 + scale) + shift
         return x
 
+    def one(self, number: int) -> FilmHeads:
+        """One of the heads, in evaluation mode."""
+        head = FilmHeads(self.told, [()], 0.0, self.embedding)
+        state = {name: tensor[number : number + 1] for name, tensor in self.state_dict().items()}
+        head.load_state_dict(state)
+        return head.eval()
+
 
 def try_film(
     examples: Examples,
@@ -79,39 +88,9 @@ def try_film(
     """
     if examples.task_vectors is None:
         raise ValueError("FiLM needs task vectors")
-    features = torch.from_numpy(examples.inputs)
-    tasks = torch.from_numpy(examples.task_vectors)
-    smallest = min(len(member.train) for member in members)
-    components = min(settings.components, smallest - 1, features.shape[1])
-    projected = {}
-    for group, member in {member.group: member for member in members}.items():
-        centre, basis = _principal(features[member.train], components, settings.whitening)
-        projected[group] = (features - centre) @ basis
-    place = {group: number for number, group in enumerate(projected)}
-    data = TrainingTensors(
-        torch.stack(list(projected.values())),
-        torch.tensor([place[member.group] for member in members]),
-        tasks,
-        torch.from_numpy(examples.labels),
-        torch.from_numpy(examples.probabilities),
-    )
-    types = examples.labels.shape[1]
-    sizes = Architecture(components, tasks.shape[1], settings.hidden, types)
-    keys = [(*key, member.group, member.seed) for member in members]
-    heads = FilmHeads(sizes, keys, settings.dropout, embedding)
-    _descend(heads, data, members, settings, keys)
-    return [
-        _answer(_one(heads, sizes, k, embedding), data, k, member.test)
-        for k, member in enumerate(members)
-    ]
-
-
-def _one(heads: FilmHeads, sizes: Architecture, number: int, embedding: int) -> FilmHeads:
-    """One of many heads."""
-    one = FilmHeads(sizes, [()], 0.0, embedding)
-    state = {name: tensor[number : number + 1] for name, tensor in heads.state_dict().items()}
-    one.load_state_dict(state)
-    return one.eval()
+    make = partial(FilmHeads, embedding=embedding)
+    heads, data, _ = fit_projected(examples, members, settings, key, make)
+    return [_answer(heads.one(k), data, k, member.test) for k, member in enumerate(members)]
 
 
 @torch.inference_mode()

@@ -5,6 +5,7 @@ from __future__ import annotations
 import copy
 import logging
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 import torch
@@ -12,7 +13,8 @@ import torch
 from grasptypes.predictors.backbone import Backbone, thaw
 from grasptypes.predictors.examples import Examples
 from grasptypes.predictors.members import Member
-from grasptypes.predictors.predictor import Architecture, BatchedMLP, loss
+from grasptypes.predictors.predictor import BatchedMLP, loss
+from grasptypes.predictors.training import fit
 from grasptypes.seeds import rng
 from grasptypes.settings.predictors import PredictorSettings
 
@@ -43,7 +45,11 @@ def fine_tune(
 ) -> tuple[Network, np.ndarray]:
     """Train a copy of the backbone with a head on one split.
 
-    Batch normalisation keeps its statistics: batches of one fold are too small to update them.
+    The head is first trained on the features of the backbone as it is, like that of a frozen one; a
+    head that starts at random would spoil the features before it has learnt to read them (A. Kumar
+    et al., Fine-Tuning can Distort Pretrained Features and Underperform Out-of-Distribution, ICLR
+    2022). Batch normalisation keeps its statistics: batches of one fold are too small to update
+    them.
 
     Args:
         examples: with images (N, H, W, 3) uint8 as inputs.
@@ -53,24 +59,29 @@ def fine_tune(
         the network in evaluation mode, and the training loss of each epoch (epochs,).
     """
     names = (*key, member.group, member.seed)
-    tasks = 0 if examples.task_vectors is None else examples.task_vectors.shape[1]
-    inputs, outputs = backbone.kind.features, examples.labels.shape[1]
-    sizes = Architecture(inputs, tasks, settings.hidden, outputs, examples.task_layer)
-    network = Network(copy.deepcopy(backbone), BatchedMLP(sizes, [names], settings.dropout)).eval()
-    thawed = thaw(network.backbone, settings.finetune, settings.finetuning.last_blocks)
+    tuning = settings.finetuning
+    tuned = copy.deepcopy(backbone).eval()
+    frozen = replace(examples, inputs=_features(tuned, examples.inputs, tuning.batch))
+    trained, _ = fit(frozen, [member], settings, key)
+    head = BatchedMLP(trained.architecture, [names], settings.dropout)
+    head.load_state_dict(trained.state_dict())
+    network = Network(tuned, head).eval()
+    thawed = thaw(tuned, settings.finetune, tuning.last_blocks)
     optimiser = torch.optim.AdamW(
-        [
-            {"params": network.head.parameters(), "lr": settings.learning_rate},
-            {"params": thawed, "lr": settings.finetuning.learning_rate},
-        ],
-        weight_decay=settings.weight_decay,
+        [*head.parameters(), *thawed], tuning.learning_rate, weight_decay=settings.weight_decay
     )
-    order = rng("order", *names)
-    losses = np.zeros(settings.finetuning.epochs)
-    for epoch in range(settings.finetuning.epochs):
+    count = max(1, len(member.train) // tuning.batch)
+    pace = torch.optim.lr_scheduler.OneCycleLR(
+        optimiser,
+        tuning.learning_rate,
+        total_steps=count * tuning.epochs,
+        pct_start=settings.warm_up,
+    )
+    order = rng("fine-tuning order", *names)
+    losses = np.zeros(tuning.epochs)
+    for epoch in range(tuning.epochs):
         network.head.train()
-        shuffled = order.permutation(member.train)
-        batches = np.array_split(shuffled, max(1, len(shuffled) // settings.finetuning.batch))
+        batches = np.array_split(order.permutation(member.train), count)
         for rows in batches:
             logits = network(*_inputs(examples, rows))
             labels = torch.from_numpy(examples.labels[rows])
@@ -79,10 +90,9 @@ def fine_tune(
             optimiser.zero_grad()
             value.backward()
             optimiser.step()
-            losses[epoch] += value.item() / len(batches)
-        LOGGER.info(
-            "epoch %d of %d: loss %.4f", epoch + 1, settings.finetuning.epochs, losses[epoch]
-        )
+            pace.step()
+            losses[epoch] += value.item() / count
+        LOGGER.info("epoch %d of %d: loss %.4f", epoch + 1, tuning.epochs, losses[epoch])
     return network.eval(), losses
 
 
@@ -94,6 +104,12 @@ def predict_pictures(
     rows = np.asarray(rows)
     chunks = [rows[start : start + batch] for start in range(0, len(rows), batch)]
     return torch.cat([network(*_inputs(examples, chunk)) for chunk in chunks]).numpy()
+
+
+@torch.inference_mode()
+def _features(backbone: Backbone, pictures: np.ndarray, batch: int) -> np.ndarray:
+    """Features (N, F) of images."""
+    return torch.cat([backbone(chunk) for chunk in torch.from_numpy(pictures).split(batch)]).numpy()
 
 
 def _inputs(examples: Examples, rows: np.ndarray) -> tuple[torch.Tensor, torch.Tensor | None]:

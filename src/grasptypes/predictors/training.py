@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import logging
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from typing import TypeVar
 
 import numpy as np
 import torch
@@ -17,6 +18,7 @@ from grasptypes.seeds import rng
 from grasptypes.settings.predictors import PredictorSettings
 
 LOGGER = logging.getLogger("grasptypes")
+Heads = TypeVar("Heads", bound=BatchedMLP)
 
 
 def fit(
@@ -25,12 +27,7 @@ def fit(
     settings: PredictorSettings,
     key: tuple[str | int, ...],
 ) -> tuple[BatchedMLP, np.ndarray]:
-    """Train one head per member.
-
-    The first layer is trained in the leading principal directions of each member's own training
-    features and then converted to take the features themselves: a change of coordinates that makes
-    training several times faster and keeps four layers. All heads use as many directions and as
-    many steps per epoch as the smallest training split allows.
+    """Train one head per member, and convert it to take the features themselves.
 
     Args:
         examples: with features as inputs.
@@ -42,6 +39,31 @@ def fit(
         the heads in evaluation mode, one per member, for F features; and the loss curves (epochs,
         members, 2): training loss and test loss (NaN without test examples).
     """
+    heads, data, curves = fit_projected(examples, members, settings, key, BatchedMLP)
+    return heads.absorb(data.centres[data.group][:, None], data.bases[data.group]), curves
+
+
+def fit_projected(
+    examples: Examples,
+    members: Sequence[Member],
+    settings: PredictorSettings,
+    key: tuple[str | int, ...],
+    make: Callable[[Architecture, Sequence[tuple[str | int, ...]], float], Heads],
+) -> tuple[Heads, TrainingTensors, np.ndarray]:
+    """Train one head per member in the leading principal directions of its training features.
+
+    It is a change of coordinates that makes training several times faster. All heads use as many
+    directions and as many steps per epoch as the smallest training split allows.
+
+    Args:
+        examples: with features as inputs.
+        key: name of the computation, for its random numbers.
+        make: makes the heads of their sizes, keys and dropout.
+
+    Returns:
+        the heads in evaluation mode, for the inputs of the tensors; these tensors; and the loss
+        curves as in :func:`fit`.
+    """
     features = torch.from_numpy(examples.inputs)
     views = {member.group: member for member in members}
     smallest = min(len(member.train) for member in members)
@@ -50,24 +72,23 @@ def fit(
         group: _principal(features[member.train], components, settings.whitening)
         for group, member in views.items()
     }
-    projected = {g: (features - c) @ p for g, (c, p) in projections.items()}
     tasks = 0 if examples.task_vectors is None else examples.task_vectors.shape[1]
     outputs = examples.labels.shape[1]
     sizes = Architecture(components, tasks, settings.hidden, outputs, examples.task_layer)
     keys = [(*key, member.group, member.seed) for member in members]
-    heads = BatchedMLP(sizes, keys, settings.dropout)
-    place = {group: number for number, group in enumerate(projected)}
+    heads = make(sizes, keys, settings.dropout)
+    place = {group: number for number, group in enumerate(projections)}
     data = TrainingTensors(
-        torch.stack(list(projected.values())),
+        torch.stack([(features - c) @ p for c, p in projections.values()]),
         torch.tensor([place[member.group] for member in members]),
+        torch.stack([centre for centre, _ in projections.values()]),
+        torch.stack([basis for _, basis in projections.values()]),
         None if examples.task_vectors is None else torch.from_numpy(examples.task_vectors),
         torch.from_numpy(examples.labels),
         torch.from_numpy(examples.probabilities),
     )
     curves = _descend(heads, data, members, settings, keys)
-    centres = torch.stack([projections[member.group][0] for member in members])
-    bases = torch.stack([projections[member.group][1] for member in members])
-    return heads.eval().absorb(centres[:, None], bases), curves
+    return heads.eval(), data, curves
 
 
 @torch.inference_mode()
@@ -84,10 +105,22 @@ def predict(heads: BatchedMLP, member: int, examples: Examples, rows: np.ndarray
 
 @dataclass(frozen=True)
 class TrainingTensors:
-    """Tensors of the examples; ``inputs`` (groups, N, components), ``group`` (members,)."""
+    """Tensors of the examples.
+
+    Attributes:
+        inputs: (groups, N, components) coordinates of the features in each group's directions.
+        group: (members,) the group of each member.
+        centres: (groups, F) where the coordinates of the features are 0.
+        bases: (groups, F, components) the directions.
+        tasks: (N, T) task vectors, if any.
+        labels: (N, types) of 0 and 1.
+        probabilities: (N, types), sum 1.
+    """
 
     inputs: Tensor
     group: Tensor
+    centres: Tensor
+    bases: Tensor
     tasks: Tensor | None
     labels: Tensor
     probabilities: Tensor
