@@ -34,7 +34,7 @@ class FineTuning(Settings):
     """Training of the backbone."""
 
     last_blocks: int = setting("number of blocks from the end for last_blocks", ge=1, le=100)
-    learning_rate: float = setting("of the backbone's blocks", gt=0, le=1)
+    learning_rate: float = setting("of the head and the backbone's last blocks", gt=0, le=1)
     epochs: int = setting("passes over the training images", ge=1, le=1000)
     batch: int = setting("images per step", ge=1, le=4096)
 
