@@ -85,7 +85,7 @@ def _split(mesh: trimesh.Trimesh) -> Iterator[trimesh.Trimesh]:
     pieces = trimesh.graph.connected_components(mesh.face_adjacency, nodes=numbers, min_len=1)
     first = 0
     while first < len(pieces):
-        yield from mesh.submesh(pieces[first : 2 * first + 1])
+        yield from cast(Sequence[trimesh.Trimesh], mesh.submesh(pieces[first : 2 * first + 1]))
         first = 2 * first + 1
 
 

@@ -29,6 +29,8 @@ FLAT = 0.05
 # Winding numbers are found up to twice as fast if no edge is longer than this many cells: the boxes
 # around long faces overlap.
 EDGE_CELLS = 8
+# Nodes nearer than this share of the spacing count as on a face.
+ON_FACE = 0.001
 
 
 def rebuilt(
@@ -55,6 +57,11 @@ def rebuilt(
         """Winding numbers (n,) of the mesh at the chosen nodes, whichever way its faces face."""
         return np.asarray(np.abs(igl.fast_winding_number(bits, corners, places(chosen))))
 
+    def distance_at(chosen: NDArray[np.bool_]) -> Array:
+        """Distances (n,) of the chosen nodes to the mesh."""
+        squared = igl.point_mesh_squared_distance(places(chosen), vertices, faces)[0]
+        return np.asarray(np.sqrt(squared))
+
     known = _near_surface(mesh, origin, spacing, shape)
     known &= sum(np.indices(shape, sparse=True)) % DIAGONAL == 0
     known[::STRIDE, ::STRIDE, ::STRIDE] = True
@@ -66,7 +73,9 @@ def rebuilt(
     while (unknown := _beside_change(winding > 0.5) & ~known).any():
         winding[unknown] = winding_at(unknown)
         known |= unknown
-    unsure = int(((winding > 0.25) & (winding < 0.75)).sum())
+    between = (winding > 0.25) & (winding < 0.75)
+    # A node on a face has one half there, whether or not there are holes.
+    unsure = int((distance_at(between) > ON_FACE * spacing).sum())
     enclosed = int((winding >= 0.75).sum())
     if unsure > limits.max_open_share * enclosed:
         raise InputError(
@@ -79,7 +88,7 @@ def rebuilt(
     # Only the distances of nodes beside the new surface say where it is.
     beside = _beside_change(winding > 0.5)
     distances = np.full(shape, spacing)
-    distances[beside] = np.sqrt(igl.point_mesh_squared_distance(places(beside), vertices, faces)[0])
+    distances[beside] = distance_at(beside)
     values = np.where(winding > 0.5, -distances, distances)
     try:
         solid = _marched(values, places(np.ones(shape, dtype=bool)))
