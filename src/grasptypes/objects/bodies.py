@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import cast
 
@@ -71,12 +71,22 @@ def _bodies(
     """The bodies of named meshes; empty if one of them is not closed."""
     bodies = []
     for name, mesh in meshes:
-        for part in mesh.split(only_watertight=False):
+        for part in _split(mesh):
             body = _body(name, part, filling, repairs)
             if body is None:
                 return []
             bodies.append(body)
     return bodies
+
+
+def _split(mesh: trimesh.Trimesh) -> Iterator[trimesh.Trimesh]:
+    """The connected pieces of a mesh, one more at a time each time: the first may be open."""
+    numbers = np.arange(len(mesh.faces))
+    pieces = trimesh.graph.connected_components(mesh.face_adjacency, nodes=numbers, min_len=1)
+    first = 0
+    while first < len(pieces):
+        yield from cast(Sequence[trimesh.Trimesh], mesh.submesh(pieces[first : 2 * first + 1]))
+        first = 2 * first + 1
 
 
 def _as_stated(mesh: trimesh.Trimesh, _: list[str]) -> trimesh.Trimesh:

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from grasptypes.files import write_bytes
 from grasptypes.objects import collision, inertia, object_files, solids
 from grasptypes.objects.distance_grid import DistanceGrid
+from grasptypes.objects.imported_grid import imported_grid
 from grasptypes.objects.object_files import Properties, Surface
 from grasptypes.objects.object_geometry import ObjectGeometry
 from grasptypes.objects.parts import ImportedModel, Material, ObjectModel, Part
@@ -29,8 +30,13 @@ def prepare(
     properties = physical_properties(name, imported)
     hulls = collision.convex_parts([part.solid for part in parts], resolution)
     # A twentieth of the spacing is lost between the nodes anyway.
-    outline = solids.to_mesh(joined(parts).simplify(resolution.grid_spacing_m / 20))
-    grid = DistanceGrid.from_mesh(*outline, resolution.grid_spacing_m, resolution.grid_margin_m)
+    outline = joined(parts).simplify(resolution.grid_spacing_m / 20)
+    spacing_m, margin_m = resolution.grid_spacing_m, resolution.grid_margin_m
+    grid = (
+        imported_grid(outline, spacing_m, margin_m)
+        if resolution.grid_estimates
+        else DistanceGrid.from_mesh(*solids.to_mesh(outline), spacing_m, margin_m)
+    )
     object_files.write_surface(folder / object_files.SURFACE, surface)
     object_files.write_properties(folder / object_files.PROPERTIES, properties)
     object_files.write_collision(

@@ -165,3 +165,18 @@ def test_what_stays_open_has_no_bodies():
     mesh = shell(0.04, OUT)
     faces = np.delete(mesh.faces, np.arange(5, 300, 7), axis=0)
     assert closed_bodies({"ball": [trimesh.Trimesh(mesh.vertices, faces[:-200])]}, []) is None
+
+
+def test_loose_faces_are_not_made_bodies_of(monkeypatch):
+    ball, made, submesh = shell(0.04, OUT), [], trimesh.Trimesh.submesh
+    apart = ball.triangles + 1e-3 * np.arange(len(ball.faces))[:, None, None]
+    faces = np.arange(3 * len(apart)).reshape(-1, 3)
+    loose = trimesh.Trimesh(apart.reshape(-1, 3), faces, process=False)
+
+    def counting(mesh, pieces, **keywords):
+        made.append(len(pieces))
+        return submesh(mesh, pieces, **keywords)
+
+    monkeypatch.setattr(trimesh.Trimesh, "submesh", counting)
+    assert closed_bodies({"body": [loose]}, []) is None
+    assert set(made) == {1}

@@ -74,3 +74,12 @@ def test_a_surface_that_encloses_nothing_proper_is_an_input_error(monkeypatch):
     monkeypatch.setattr(leaky_meshes.solids, "from_mesh", refuse)
     with pytest.raises(InputError, match=r"cup\.stl: has holes, and its surface cannot be rebuilt"):
         rebuilt("cup.stl", ball(), LIMITS)
+
+
+def test_long_faces_are_cut_without_changing_what_they_enclose():
+    box = trimesh.creation.box((0.3, 0.02, 0.02))
+    cut = leaky_meshes._bisected(np.asarray(box.triangles), 0.03)
+    assert np.linalg.norm(np.roll(cut, 1, axis=1) - cut, axis=2).max() <= 0.03
+    corners = np.cross(cut[:, 0], cut[:, 1])
+    assert np.einsum("fi,fi->", corners, cut[:, 2]) / 6 == pytest.approx(box.volume)
+    assert trimesh.triangles.area(cut).sum() == pytest.approx(box.area)
