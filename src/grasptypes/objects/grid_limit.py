@@ -21,8 +21,8 @@ def limited(
 ) -> tuple[ImportedModel, Resolution]:
     """A model, and the resolution at which its distance grid keeps the limit of nodes.
 
-    Distances beyond the grid's margin become estimates. If the grid has to be coarser, the model's
-    repairs say so.
+    Distances beyond the grid's margin become lower bounds. If the grid has to be coarser, the
+    model's repairs say so.
     """
     corners = [part.solid.bounding_box() for part in imported.model.parts]
     box_m = imported.scale * np.reshape(corners, (-1, 2, 3))
@@ -35,7 +35,7 @@ def limited(
         for spacing_m in spacings_m
         if prod(grid_shape(low_m, high_m, spacing_m)) <= limits.max_grid_nodes
     )
-    resolution = resolution.changed(grid_estimates=True)
+    resolution = resolution.changed(grid_capped=True)
     if spacing_m == wanted_m:
         return imported, resolution
     note = f"spaced the distance grid at {1e3 * spacing_m:.1f} mm, as the object is large"

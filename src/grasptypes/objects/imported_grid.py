@@ -6,7 +6,7 @@ import igl
 import numpy as np
 from manifold3d import Manifold
 from numpy.typing import NDArray
-from scipy import ndimage, sparse
+from scipy import sparse
 
 from grasptypes.objects import solids
 from grasptypes.objects.distance_grid import DistanceGrid, grid_shape
@@ -19,10 +19,10 @@ EDGE_CELLS = 5
 
 
 def imported_grid(solid: Manifold, spacing_m: float, margin_m: float) -> DistanceGrid:
-    """The distances to a solid, exact up to a margin and estimated beyond.
+    """The distances to a solid, exact up to a margin; beyond it, nodes have a lower bound.
 
-    An estimate is the distance to the nearest node with an exact one, and the distance there: too
-    long by about a cell. Most nodes of a large object are that far away, and nothing needs theirs.
+    Most nodes of a large object are that far away, and nothing needs their distances. With a lower
+    bound, a hand that moves as far as its distance allows never jumps over the surface.
     """
     vertices, faces = solids.to_mesh(solid.refine_to_length(EDGE_CELLS * spacing_m))
     origin_m = vertices.min(axis=0) - margin_m
@@ -37,36 +37,29 @@ def imported_grid(solid: Manifold, spacing_m: float, margin_m: float) -> Distanc
         -reach_m,
         reach_m,
     )[0].reshape(shape)
-    values = signs_that_agree(_completed(values, spacing_m), spacing_m)
+    values = signed_as_connected(values, reach_m, spacing_m)
     return DistanceGrid(values.astype(np.float32), origin_m, float(spacing_m))
 
 
-def _completed(values: Array, spacing_m: float) -> Array:
-    """Distances (nx, ny, nz), estimated where they are not a number."""
-    unknown = np.isnan(values)
-    if not unknown.any():
-        return values
-    cells, nearest = ndimage.distance_transform_edt(unknown, return_indices=True)
-    there = values[tuple(nearest)]
-    return np.asarray(there + np.copysign(cells * spacing_m, there))
-
-
-def signs_that_agree(values: Array, spacing_m: float) -> Array:
+def signed_as_connected(values: Array, reach_m: float, spacing_m: float) -> Array:
     """Distances (nx, ny, nz) with the sign that neighbours have with no surface between them.
 
     The nearest face does not tell the side where faces are degenerate. Two neighbours whose
     distances are together longer than a cell are on the same side; of all nodes that are connected
     like this, the sum of distances decides.
+
+    Args:
+        values: signed distances; not a number where they are longer than `reach_m`.
     """
+    sizes = np.where(np.isnan(values), reach_m, np.abs(values))
     numbers = np.arange(values.size).reshape(values.shape)
     pairs = []
     for axis in range(3):
-        size, number = np.moveaxis(np.abs(values), axis, 0), np.moveaxis(numbers, axis, 0)
+        size, number = np.moveaxis(sizes, axis, 0), np.moveaxis(numbers, axis, 0)
         apart = size[1:] + size[:-1] > spacing_m * (1 + 1e-6)
         pairs.append(np.stack([number[1:][apart], number[:-1][apart]]))
     one, other = np.concatenate(pairs, axis=1)
     graph = sparse.coo_array((np.ones(len(one), dtype=bool), (one, other)), (values.size,) * 2)
     group = sparse.csgraph.connected_components(graph, directed=False)[1]
-    inside = np.bincount(group, values.reshape(-1)) < 0
-    size = np.abs(values)
-    return np.where(inside[group].reshape(values.shape), -size, size)
+    inside = np.bincount(group, np.nan_to_num(values).reshape(-1)) < 0
+    return np.where(inside[group].reshape(values.shape), -sizes, sizes)

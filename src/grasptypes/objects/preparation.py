@@ -34,7 +34,7 @@ def prepare(
     spacing_m, margin_m = resolution.grid_spacing_m, resolution.grid_margin_m
     grid = (
         imported_grid(outline, spacing_m, margin_m)
-        if resolution.grid_estimates
+        if resolution.grid_capped
         else DistanceGrid.from_mesh(*solids.to_mesh(outline), spacing_m, margin_m)
     )
     object_files.write_surface(folder / object_files.SURFACE, surface)

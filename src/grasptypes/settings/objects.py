@@ -90,8 +90,8 @@ class Resolution(Settings):
     grid_margin_m: float = setting(
         "how far the distance grid reaches beyond the object", ge=0.002, le=0.2
     )
-    grid_estimates: bool = setting(
-        "whether distances beyond the margin are estimates, as those of your own meshes are",
+    grid_capped: bool = setting(
+        "whether distances beyond the margin are only bounded, as those of your own meshes are",
         default=False,
     )
     collision_max_parts: int = setting("maximum number of convex parts per object", ge=1, le=512)
