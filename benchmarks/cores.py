@@ -4,10 +4,11 @@ Run from a repository in which `snakemake -j2 reports/table1.csv` has run:
 
     python benchmarks/cores.py
 
-The jobs, what each reads and its processor time come from Snakemake's records and from
-`logs/benchmarks`. The simulation starts, whenever a core is free, the ready job with the longest
-path to Table I. It knows nothing of Snakemake's own time, of queues, or of cores that slow each
-other down, so its times are lower bounds.
+The jobs, what each reads and the time that it took come from Snakemake's records and from
+`logs/benchmarks`, so nothing else should run on the machine meanwhile. (The processor times there
+are samples, up to 30 s apart, without what follows the last one.) The simulation starts, whenever a
+core is free, the ready job with the longest path to Table I. It knows nothing of Snakemake's own
+time, of queues, or of cores that slow each other down, so its times are lower bounds.
 """
 
 from __future__ import annotations
@@ -45,7 +46,7 @@ SCHEMA = pa.DataFrameSchema(
 
 @dataclass(frozen=True)
 class Job:
-    """A job of the run: its processor time, and the jobs whose outputs it reads."""
+    """A job of the run: the time that it took, and the jobs whose outputs it reads."""
 
     seconds: float
     after: frozenset[str]
@@ -72,11 +73,11 @@ def read_jobs(root: Path, target: str) -> dict[str, Job]:
 
 
 def _seconds(root: Path, log: str) -> float:
-    """Processor time of a job; nothing if it has no benchmark, as those that only gather files."""
+    """Time that a job took; nothing if it has no benchmark, as those that only gather files."""
     path = root / log.replace("logs/", "logs/benchmarks/", 1).replace(".log", ".tsv")
     if not path.is_file():
         return 0.0
-    return float(pd.read_csv(path, sep="\t", na_values="-")["cpu_time"].iloc[0])
+    return float(pd.read_csv(path, sep="\t", na_values="-")["s"].iloc[0])
 
 
 def longest_paths(jobs: Mapping[str, Job]) -> dict[str, float]:

@@ -1,7 +1,8 @@
 """Cost of the jobs on this machine, from Snakemake's benchmarks, for the report.
 
 ``python -m grasptypes.reports.timing`` writes ``build/timing.csv`` and ``build/timing.png``. Costs
-differ between runs, so nothing that is versioned may depend on them.
+differ between runs, so nothing that is versioned may depend on them. Snakemake's processor times
+are left out: they are samples up to 30 s apart, without what follows the last one.
 """
 
 from __future__ import annotations
@@ -24,7 +25,6 @@ TIMING_SCHEMA = pa.DataFrameSchema(
         "jobs": pa.Column(int, pa.Check.ge(1)),
         "wall_s": pa.Column(float, pa.Check.ge(0), description="sum over the jobs"),
         "longest_s": pa.Column(float, pa.Check.ge(0), description="wall time of one job"),
-        "cpu_s": pa.Column(float, pa.Check.ge(0), nullable=True, description="sum over the jobs"),
         "memory_mb": pa.Column(float, pa.Check.ge(0), nullable=True, description="of the largest"),
     },
     strict=True,
@@ -54,14 +54,13 @@ def read_timing(folder: str | Path) -> pd.DataFrame:
         jobs=("s", "size"),
         wall_s=("s", "sum"),
         longest_s=("s", "max"),
-        cpu_s=("cpu_time", "sum"),
         memory_mb=("max_rss", "max"),
     ).reset_index()
     return table.sort_values("wall_s", ascending=False, ignore_index=True)
 
 
 def draw_timing(table: pd.DataFrame) -> Figure:
-    """Wall and CPU time, and memory, one bar per rule.
+    """Time and memory, one bar per rule.
 
     Args:
         table: of `TIMING_SCHEMA`.
@@ -70,13 +69,11 @@ def draw_timing(table: pd.DataFrame) -> Figure:
     left, right = figure.subplots(1, 2, sharey=True, width_ratios=(3, 2))
     places = pd.Series(range(len(table)), dtype=float)
     names = [f"{row.rule} ({row.jobs})" for row in table.itertuples()]
-    wall = left.barh(places - 0.2, table["wall_s"], 0.38, color="#2a6f97", label="wall")
-    left.barh(places + 0.2, table["cpu_s"], 0.38, color="#a9cfe3", label="CPU")
+    wall = left.barh(places, table["wall_s"], 0.6, color="#2a6f97")
     left.bar_label(wall, [_time(seconds) for seconds in table["wall_s"]], padding=3, fontsize=7.5)
     left.set_yticks(places, names)
     left.invert_yaxis()
     left.set_xlabel("seconds, sum over the jobs (their number beside the rule)")
-    left.legend(loc="lower right")
     memory = right.barh(places, table["memory_mb"], 0.6, color="#c9a227")
     right.bar_label(memory, fmt="%.0f", padding=3, fontsize=7.5)
     right.set_xlabel("MB, the largest job")
