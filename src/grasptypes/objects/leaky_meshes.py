@@ -76,13 +76,7 @@ def rebuilt(
     between = (winding > 0.25) & (winding < 0.75)
     # A node on a face has one half there, whether or not there are holes.
     unsure = int((distance_at(between) > ON_FACE * spacing).sum())
-    enclosed = int((winding >= 0.75).sum())
-    if unsure > limits.max_open_share * enclosed:
-        raise InputError(
-            path, "", "is an open shell without volume: close its holes or give its walls thickness"
-        )
-    if not (winding > 0.5).any():
-        raise InputError(path, "", "encloses no volume: it is flat")
+    _check_volume(path, winding, unsure, limits)
     # What bulges out of a hole ends at the bounds of the mesh, four nodes inside the grid's.
     winding *= np.pad(np.ones(shape - 8), 4)
     # Only the distances of nodes beside the new surface say where it is.
@@ -95,6 +89,17 @@ def rebuilt(
     except ValueError as error:
         raise InputError(path, "", "has holes, and its surface cannot be rebuilt") from error
     return solid.simplify(FLAT * spacing), spacing
+
+
+def _check_volume(path: str | Path, winding: Array, unsure: int, limits: ImportLimits) -> None:
+    """Refuse an open shell, where many nodes are neither inside nor outside, and a flat mesh."""
+    enclosed = int((winding >= 0.75).sum())
+    if unsure > limits.max_open_share * enclosed:
+        raise InputError(
+            path, "", "is an open shell without volume: close its holes or give its walls thickness"
+        )
+    if not (winding > 0.5).any():
+        raise InputError(path, "", "encloses no volume: it is flat")
 
 
 def _bisected(triangles: Array, edge: float) -> Array:
